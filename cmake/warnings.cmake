@@ -1,0 +1,6 @@
+# Our own targets only; dependencies' headers are system headers.
+add_library(landfall_warnings INTERFACE)
+target_compile_options(landfall_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow
+  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast>
+  $<$<BOOL:${LANDFALL_WERROR}>:-Werror>)

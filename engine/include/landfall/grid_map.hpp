@@ -1,0 +1,53 @@
+// Occupancy grids, and the only place that converts metres to cells.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "landfall/pose2.hpp"
+
+namespace landfall {
+
+enum class Occupancy : std::uint8_t { free = 0, occupied = 1, unknown = 2 };
+
+struct CellIndex {
+  int col = 0;  // along the grid's x
+  int row = 0;  // along the grid's y
+  friend bool operator==(const CellIndex&, const CellIndex&) = default;
+};
+
+// Cells row by row from the grid's lower-left corner (an image's row 0 is its top: the loader flips).
+struct GridMap {
+  int width_cells = 0;
+  int height_cells = 0;
+  double resolution_m = 0.0;
+  Pose2 T_map_grid;  // lower-left corner of cell (0, 0), and the direction of the grid's axes
+  std::vector<Occupancy> cells;
+
+  [[nodiscard]] bool contains(CellIndex cell) const {
+    return cell.col >= 0 && cell.col < width_cells && cell.row >= 0 && cell.row < height_cells;
+  }
+  [[nodiscard]] std::size_t index(CellIndex cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width_cells) +
+           static_cast<std::size_t>(cell.col);
+  }
+  // Outside the grid: unknown.
+  [[nodiscard]] Occupancy at(CellIndex cell) const {
+    return contains(cell) ? cells[index(cell)] : Occupancy::unknown;
+  }
+  // The cell that holds a point of the map frame; it may lie outside the grid.
+  [[nodiscard]] CellIndex cell_of(const Point2& p_map) const;
+  // The centre of a cell, in the map frame.
+  [[nodiscard]] Point2 center_of(CellIndex cell) const;
+  friend bool operator==(const GridMap&, const GridMap&) = default;
+};
+
+// Most cells a map may have (2^31): coordinates, and products with 12 bytes a cell, stay exact.
+inline constexpr std::int64_t max_map_cells = std::int64_t{1} << 31;
+
+// Throws Error{invalid_argument or too_large}: empty or oversized grid, a resolution that is not
+// positive and finite, an origin that is not finite, a number of cells other than width x height.
+void validate(const GridMap& map);
+
+}  // namespace landfall
