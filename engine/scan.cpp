@@ -1,0 +1,111 @@
+#include "landfall/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "landfall/error.hpp"
+
+namespace landfall {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) {
+  throw Error(ErrorCode::invalid_argument, message);
+}
+
+void validate_pose(const std::optional<Pose2>& pose, const char* field) {
+  if (!pose || is_finite(*pose)) return;
+  fail(std::string("scan: ") + field + " is (" + std::to_string(pose->x_m) + ", " +
+       std::to_string(pose->y_m) + ", " + std::to_string(pose->theta_rad) + "), expected finite numbers");
+}
+
+int count_readings(const Scan& scan, bool echoes_alone) {
+  int count = 0;
+  const std::size_t beams = std::min(scan.ranges_m.size(), scan.sensor ? scan.sensor->beams.size() : 0);
+  for (std::size_t b = 0; b < beams; ++b) {
+    const Reading reading = classify(scan.sensor->beams[b], scan.ranges_m[b]);
+    count += reading == Reading::echo || (!echoes_alone && reading == Reading::no_echo);
+  }
+  return count;
+}
+
+void check_mergeable(std::span<const Scan> scans, std::span<const Pose2> T_common_robot,
+                     std::size_t reference) {
+  if (scans.empty()) fail("merge: no scans, expected at least one");
+  if (T_common_robot.size() != scans.size())
+    fail("merge: " + std::to_string(T_common_robot.size()) + " poses for " + std::to_string(scans.size()) +
+         " scans, expected one each");
+  if (reference >= scans.size())
+    fail("merge: reference is " + std::to_string(reference) + ", expected a scan below " +
+         std::to_string(scans.size()));
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    validate(scans[i]);
+    if (!is_finite(T_common_robot[i])) fail("merge: pose " + std::to_string(i) + " is not finite");
+  }
+}
+
+}  // namespace
+
+// Limits are compared as floats: a reading that a log prints as the sensor's maximum stays the maximum.
+Reading classify(const Beam& beam, float range_m) {
+  if (!(range_m > 0.0f) || range_m < static_cast<float>(beam.range_min_m)) return Reading::invalid;
+  return range_m >= static_cast<float>(beam.range_max_m) ? Reading::no_echo : Reading::echo;
+}
+
+int count_valid(const Scan& scan) {
+  return count_readings(scan, false);
+}
+
+int count_echoes(const Scan& scan) {
+  return count_readings(scan, true);
+}
+
+void validate(const Scan& scan) {
+  if (!scan.sensor) fail("scan: no sensor");
+  validate(*scan.sensor);
+  if (scan.ranges_m.size() != scan.sensor->beams.size())
+    fail("scan: " + std::to_string(scan.ranges_m.size()) + " ranges, expected " +
+         std::to_string(scan.sensor->beams.size()) + " as sensor '" + scan.sensor->name + "' has beams");
+  if (!std::isfinite(scan.stamp_s))
+    fail("scan: stamp_s is " + std::to_string(scan.stamp_s) + ", expected a finite number");
+  validate_pose(scan.T_odom_robot, "T_odom_robot");
+  validate_pose(scan.T_map_robot, "T_map_robot");
+}
+
+Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference) {
+  check_mergeable(scans, T_common_robot, reference);
+  Sensor sensor{.name = "composite", .beams = {}, .range_noise_m = 0.0, .range_noise_relative = 0.0};
+  std::vector<float> ranges_m;
+  const Pose2 T_reference_common = inverse(T_common_robot[reference]);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Sensor& part = *scans[i].sensor;
+    sensor.range_noise_m = std::max(sensor.range_noise_m, part.range_noise_m);
+    sensor.range_noise_relative = std::max(sensor.range_noise_relative, part.range_noise_relative);
+    const Pose2 T_reference_robot = i == reference ? Pose2{} : T_reference_common * T_common_robot[i];
+    for (Beam beam : part.beams) {
+      beam.T_robot_beam = T_reference_robot * beam.T_robot_beam;
+      sensor.beams.push_back(beam);
+    }
+    ranges_m.insert(ranges_m.end(), scans[i].ranges_m.begin(), scans[i].ranges_m.end());
+  }
+  validate(sensor);
+  return {.sensor = std::make_shared<const Sensor>(std::move(sensor)),
+          .ranges_m = std::move(ranges_m),
+          .stamp_s = scans[reference].stamp_s,
+          .T_odom_robot = scans[reference].T_odom_robot,
+          .T_map_robot = scans[reference].T_map_robot};
+}
+
+Scan merge(std::span<const Scan> scans) {
+  if (scans.empty()) fail("merge: no scans, expected at least one");
+  std::vector<Pose2> T_odom_robot;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!scans[i].T_odom_robot)
+      fail("merge: scan " + std::to_string(i) + " has no T_odom_robot, expected odometry in every scan");
+    T_odom_robot.push_back(*scans[i].T_odom_robot);
+  }
+  return merge(scans, T_odom_robot, scans.size() - 1);
+}
+
+}  // namespace landfall

@@ -1,0 +1,38 @@
+// Walls as an Embree scene of upright quads; rays travel in the plane z = 0.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <span>
+
+#include "raycast/embree.hpp"
+#include "raycast/scene.hpp"
+
+namespace landfall::raycast {
+
+inline constexpr std::size_t packet_rays = 16;
+
+// Sixteen rays, relative to the walls' centre. Lanes at and after `count` are not traced.
+struct alignas(64) RayPacket {
+  std::array<float, packet_rays> x_m, y_m, dx, dy, range_max_m;
+};
+
+class EmbreeWalls {
+ public:
+  // Takes the walls relative to (center_x_m, center_y_m).
+  EmbreeWalls(std::span<const Segment> walls, double center_x_m, double center_y_m);
+  ~EmbreeWalls();
+  EmbreeWalls(const EmbreeWalls&) = delete;
+  EmbreeWalls& operator=(const EmbreeWalls&) = delete;
+
+  // ranges_m: one per traced lane; +inf: nothing within the lane's range_max_m.
+  void trace(const RayPacket& packet, std::size_t count, Coherence coherence,
+             std::span<float> ranges_m) const;
+
+ private:
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+}  // namespace landfall::raycast
