@@ -29,8 +29,11 @@ class EmbreeWalls {
   // ranges_m: one per traced lane; +inf: nothing within the lane's range_max_m.
   void trace(const RayPacket& packet, std::size_t count, Coherence coherence,
              std::span<float> ranges_m) const;
+  // What Embree holds for the scene.
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
+  std::atomic<std::ptrdiff_t> memory_bytes_ = 0;  // Embree's threads report here while they build
   RTCDevice device_;
   RTCScene scene_;
 };
