@@ -37,24 +37,27 @@ landfall::GridMap grid_map(const landfall_grid& grid) {
 
 landfall_status landfall_map_load(const char* path, landfall_map** map) {
   return guarded(__func__, [&] {
-    required(map, "map") = new landfall_map{landfall::load_map(&required(path, "path"))};
+    auto*& made = required(map, "map");
+    made = new landfall_map{landfall::load_map(&required(path, "path"))};
   });
 }
 
 landfall_status landfall_map_from_grid(const landfall_grid* grid, landfall_map** map) {
   return guarded(__func__, [&] {
-    required(map, "map") = new landfall_map{landfall::PreparedMap(grid_map(required(grid, "grid")))};
+    auto*& made = required(map, "map");
+    made = new landfall_map{landfall::PreparedMap(grid_map(required(grid, "grid")))};
   });
 }
 
 landfall_status landfall_map_from_walls(const landfall_wall* walls, size_t wall_count, double resolution_m,
                                         landfall_map** map) {
   return guarded(__func__, [&] {
+    auto*& made = required(map, "map");
     landfall::WallMap plan;
     for (const landfall_wall& wall : array(walls, wall_count, "walls"))
       plan.walls.push_back({from_c(wall.a_map), from_c(wall.b_map)});
     const landfall::GridFromWallsOptions grid{.resolution_m = resolution_m};
-    required(map, "map") = new landfall_map{landfall::PreparedMap(std::move(plan), grid)};
+    made = new landfall_map{landfall::PreparedMap(std::move(plan), grid)};
   });
 }
 

@@ -1,7 +1,16 @@
 #include "bindings/c/handles.hpp"
 
+namespace {
+
 using landfall::c::guarded;
 using landfall::c::required;
+
+// The table's texts are literals, so they end with a NUL; an empty view may hold no text at all.
+const char* c_string(std::string_view literal) {
+  return literal.empty() ? "" : literal.data();
+}
+
+}  // namespace
 
 size_t landfall_method_count(void) {
   return landfall::methods().size();
@@ -15,7 +24,7 @@ landfall_status landfall_method_get(size_t index, landfall_method* method) {
                           std::to_string(methods.size()) + " methods");
     const landfall::MethodInfo& info = methods[index];
     required(method, "method") = {
-        .name = info.name.data(), .summary = info.summary.data(), .source = info.source.data()};
+        .name = c_string(info.name), .summary = c_string(info.summary), .source = c_string(info.source)};
   });
 }
 

@@ -12,8 +12,9 @@ using landfall::c::guarded;
 using landfall::c::required;
 
 void give(landfall_prior** prior, landfall::PosePrior made) {
+  auto*& handle = required(prior, "prior");
   validate(made);
-  required(prior, "prior") = new landfall_prior{std::move(made)};
+  handle = new landfall_prior{std::move(made)};
 }
 
 }  // namespace

@@ -41,12 +41,16 @@ std::vector<landfall::Pose2> odometry_of(std::span<const landfall::Scan> scans) 
 }  // namespace
 
 landfall_status landfall_scans_new(landfall_scans** scans) {
-  return guarded(__func__, [&] { required(scans, "scans") = new landfall_scans{}; });
+  return guarded(__func__, [&] {
+    auto*& made = required(scans, "scans");
+    made = new landfall_scans{};
+  });
 }
 
 landfall_status landfall_scans_load(const char* path, landfall_scans** scans) {
   return guarded(__func__, [&] {
-    required(scans, "scans") = new landfall_scans{landfall::load_log(&required(path, "path")).scans};
+    auto*& made = required(scans, "scans");
+    made = new landfall_scans{landfall::load_log(&required(path, "path")).scans};
   });
 }
 
@@ -60,6 +64,7 @@ landfall_status landfall_scans_add(landfall_scans* scans, const landfall_sensor*
                                    const float* ranges_m, size_t range_count, double stamp_s,
                                    const landfall_pose* T_odom_robot) {
   return guarded(__func__, [&] {
+    auto& list = required(scans, "scans").scans;
     const auto ranges = array(ranges_m, range_count, "ranges_m");
     landfall::Scan scan;
     scan.sensor = required(sensor, "sensor").sensor;
@@ -67,7 +72,7 @@ landfall_status landfall_scans_add(landfall_scans* scans, const landfall_sensor*
     scan.stamp_s = stamp_s;
     if (T_odom_robot != nullptr) scan.T_odom_robot = from_c(*T_odom_robot);
     validate(scan);
-    required(scans, "scans").scans.push_back(std::move(scan));
+    list.push_back(std::move(scan));
   });
 }
 
@@ -103,10 +108,11 @@ landfall_status landfall_scans_merge(const landfall_scans* scans, size_t first, 
                                      const landfall_pose* T_common_robot, size_t reference,
                                      landfall_scans* merged) {
   return guarded(__func__, [&] {
+    auto& list = required(merged, "merged").scans;
     const Window window = window_of(scans, first, count, reference);
     const auto poses = T_common_robot == nullptr ? odometry_of(window.scans)
                                                  : from_c(array(T_common_robot, count, "T_common_robot"));
-    required(merged, "merged").scans.push_back(landfall::merge(window.scans, poses, window.reference));
+    list.push_back(landfall::merge(window.scans, poses, window.reference));
   });
 }
 

@@ -70,9 +70,9 @@ landfall_status landfall_search(const landfall_map* map, const landfall_prior* p
                                 const landfall_scans* scans, const landfall_search_options* options,
                                 landfall_results** results) {
   return guarded(__func__, [&] {
-    required(results, "results") =
-        make_handle(landfall::search(required(map, "map").map, required(prior, "prior").prior,
-                                     required(scans, "scans").scans, search_options(options)));
+    auto*& made = required(results, "results");
+    made = make_handle(landfall::search(required(map, "map").map, required(prior, "prior").prior,
+                                        required(scans, "scans").scans, search_options(options)));
   });
 }
 
@@ -81,13 +81,14 @@ landfall_status landfall_search_maps(const landfall_map* const* maps, size_t map
                                      const landfall_scans* scans, const landfall_search_options* options,
                                      landfall_results** results) {
   return guarded(__func__, [&] {
+    auto*& made = required(results, "results");
     std::vector<landfall::PreparedMap> given_maps;
     for (const landfall_map* map : array(maps, map_count, "maps"))
       given_maps.push_back(required(map, "a map").map);
     std::vector<landfall::PosePrior> given_priors;
     for (const landfall_prior* prior : array(priors, prior_count, "priors"))
       given_priors.push_back(required(prior, "a prior").prior);
-    required(results, "results") = make_handle(
+    made = make_handle(
         landfall::search(given_maps, given_priors, required(scans, "scans").scans, search_options(options)));
   });
 }

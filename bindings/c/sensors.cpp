@@ -34,16 +34,17 @@ landfall_status landfall_sensor_from_beams(const landfall_beam* beams, size_t be
                                            double range_noise_m, double range_noise_relative,
                                            landfall_sensor** sensor) {
   return guarded(__func__, [&] {
-    landfall::Sensor made{.name = "sensor",
-                          .beams = {},
-                          .range_noise_m = range_noise_m,
-                          .range_noise_relative = range_noise_relative};
+    auto*& made = required(sensor, "sensor");
+    landfall::Sensor source{.name = "sensor",
+                            .beams = {},
+                            .range_noise_m = range_noise_m,
+                            .range_noise_relative = range_noise_relative};
     for (const landfall_beam& beam : array(beams, beam_count, "beams"))
-      made.beams.push_back({.T_robot_beam = from_c(beam.T_robot_beam),
-                            .half_angle_rad = beam.half_angle_rad,
-                            .range_min_m = beam.range_min_m,
-                            .range_max_m = beam.range_max_m});
-    required(sensor, "sensor") = make_handle(std::move(made));
+      source.beams.push_back({.T_robot_beam = from_c(beam.T_robot_beam),
+                              .half_angle_rad = beam.half_angle_rad,
+                              .range_min_m = beam.range_min_m,
+                              .range_max_m = beam.range_max_m});
+    made = make_handle(std::move(source));
   });
 }
 
@@ -64,24 +65,25 @@ void landfall_fan_options_init(landfall_fan_options* options) {
 
 landfall_status landfall_sensor_fan(const landfall_fan_options* options, landfall_sensor** sensor) {
   return guarded(__func__, [&] {
+    auto*& made = required(sensor, "sensor");
     const landfall_fan_options fan = landfall::c::or_defaults(options, landfall_fan_options_init);
-    required(sensor, "sensor") =
-        make_handle(landfall::make_fan({.name = "laser",
-                                        .beams = fan.beam_count,
-                                        .first_rad = fan.first_rad,
-                                        .step_rad = fan.step_rad,
-                                        .T_robot_sensor = from_c(fan.T_robot_sensor),
-                                        .half_angle_rad = fan.half_angle_rad,
-                                        .range_min_m = fan.range_min_m,
-                                        .range_max_m = fan.range_max_m,
-                                        .range_noise_m = fan.range_noise_m,
-                                        .range_noise_relative = fan.range_noise_relative}));
+    made = make_handle(landfall::make_fan({.name = "laser",
+                                           .beams = fan.beam_count,
+                                           .first_rad = fan.first_rad,
+                                           .step_rad = fan.step_rad,
+                                           .T_robot_sensor = from_c(fan.T_robot_sensor),
+                                           .half_angle_rad = fan.half_angle_rad,
+                                           .range_min_m = fan.range_min_m,
+                                           .range_max_m = fan.range_max_m,
+                                           .range_noise_m = fan.range_noise_m,
+                                           .range_noise_relative = fan.range_noise_relative}));
   });
 }
 
 landfall_status landfall_sensor_load(const char* path, const char* name, landfall_sensor** sensor) {
   return guarded(__func__, [&] {
-    required(sensor, "sensor") = new landfall_sensor{load_sensor(&required(path, "path"), name)};
+    auto*& made = required(sensor, "sensor");
+    made = new landfall_sensor{load_sensor(&required(path, "path"), name)};
   });
 }
 

@@ -1,0 +1,2 @@
+#include "landfall.h"
+#include "landfall.h"  // NOLINT(readability-duplicate-include): its guard is what is tested

@@ -1,0 +1,122 @@
+/* From nothing to a pose: a drawn map, a sensor, a simulated scan, every kind of prior, a search. */
+#include <math.h>
+#include <string.h>
+
+#include "drawn_room.h"
+
+static const landfall_pose TRUTH = {1.234, 1.777, 0.6};
+
+static void check_pose(const landfall_results* results, size_t index) {
+  landfall_result result;
+  CHECK_OK(landfall_results_get(results, index, &result));
+  CHECK(result.hypothesis_count >= 1 && result.hypothesis_count <= 5);
+  const landfall_hypothesis* best = &result.hypotheses[0];
+  CHECK(hypot(best->T_map_robot.x_m - TRUTH.x_m, best->T_map_robot.y_m - TRUTH.y_m) < 0.05);
+  CHECK(fabs(best->T_map_robot.theta_rad - TRUTH.theta_rad) < 0.03);
+  CHECK(best->explained > 0.9 && best->explained <= 1.0);
+  CHECK(best->map_index == 0 && best->score > 0);
+  CHECK(result.verdict == LANDFALL_FOUND && result.proven == 1);
+  CHECK(result.beams_valid == 360 && result.total_ms > 0.0);
+  CHECK(strlen(result.method) > 0 && strcmp(result.reason, "") == 0);
+}
+
+/* The exact ranges of the truth, put together as a log would be. */
+static landfall_scans* simulate_scan(const landfall_map* map, const landfall_sensor* scanner) {
+  float ranges_m[360];
+  CHECK(landfall_sensor_beam_count(scanner) == 360);
+  CHECK_OK(landfall_simulate_ranges(map, scanner, &TRUTH, 1, ranges_m, 360));
+  landfall_scans* scans = NULL;
+  CHECK_OK(landfall_scans_new(&scans));
+  CHECK_OK(landfall_scans_add(scans, scanner, ranges_m, 360, 12.5, NULL));
+  CHECK_OK(landfall_simulate(map, scanner, &TRUTH, 1, 7, scans));
+  CHECK(landfall_scans_count(scans) == 2);
+  return scans;
+}
+
+static void search_under(landfall_prior* prior, const landfall_map* map, const landfall_scans* scans) {
+  landfall_results* results = NULL;
+  CHECK_OK(landfall_search(map, prior, scans, NULL, &results));
+  CHECK(landfall_results_count(results) == 2);
+  check_pose(results, 0);
+  check_pose(results, 1);
+  landfall_results_free(results);
+  landfall_prior_free(prior);
+}
+
+static void search_under_every_prior(const landfall_map* map, const landfall_scans* scans) {
+  const double covariance[9] = {0.04, 0.0, 0.0, 0.0, 0.04, 0.0, 0.0, 0.0, 0.01};
+  const landfall_pose near_truth = {1.2, 1.8, 0.5};
+  const landfall_point corners[4] = {{0.2, 1.5}, {1.8, 1.5}, {1.8, 2.2}, {0.2, 2.2}};
+  const landfall_point beacon = {1.0, 1.6};
+  const double radius_m = 0.5;
+  landfall_prior* prior = NULL;
+  CHECK_OK(landfall_prior_anywhere(&prior));
+  search_under(prior, map, scans);
+  CHECK_OK(landfall_prior_window(near_truth, 0.3, 0.3, 0.4, &prior));
+  search_under(prior, map, scans);
+  CHECK_OK(landfall_prior_gaussian(near_truth, covariance, &prior));
+  search_under(prior, map, scans);
+  CHECK_OK(landfall_prior_region(corners, 4, 0.0, 3.14159265358979, &prior));
+  search_under(prior, map, scans);
+  CHECK_OK(landfall_prior_beacons(&beacon, &radius_m, 1, &prior));
+  search_under(prior, map, scans);
+  CHECK_OK(landfall_prior_poses(&TRUTH, 1, &prior));
+  search_under(prior, map, scans);
+}
+
+static void search_under_a_mixture_of_two_maps(const landfall_map* map, const landfall_scans* scans) {
+  landfall_prior* components[2] = {NULL, NULL};
+  const double weights[2] = {0.9, 0.1};
+  CHECK_OK(landfall_prior_window(TRUTH, 0.2, 0.2, 0.2, &components[0]));
+  CHECK_OK(landfall_prior_anywhere(&components[1]));
+  landfall_prior* mixture = NULL;
+  CHECK_OK(landfall_prior_mixture((const landfall_prior* const*)components, weights, 2, &mixture));
+
+  const landfall_wall walls[3] = {{{0, 0}, {5, 0}}, {{5, 0}, {5, 5}}, {{5, 5}, {0, 0}}};
+  landfall_map* triangle = NULL;
+  CHECK_OK(landfall_map_from_walls(walls, 3, 0.1, &triangle));
+  const landfall_map* maps[2] = {map, triangle};
+  const landfall_prior* priors[1] = {mixture};
+  landfall_search_options options;
+  landfall_search_options_init(&options);
+  options.method = "branch_and_bound";
+  options.threads = 1;
+  landfall_results* results = NULL;
+  CHECK_OK(landfall_search_maps(maps, 2, priors, 1, scans, &options, &results));
+  check_pose(results, 0);
+
+  landfall_results_free(results);
+  landfall_map_free(triangle);
+  landfall_prior_free(mixture);
+  landfall_prior_free(components[1]);
+  landfall_prior_free(components[0]);
+}
+
+static void list_methods(void) {
+  int found = 0;
+  for (size_t i = 0; i < landfall_method_count(); ++i) {
+    landfall_method method;
+    CHECK_OK(landfall_method_get(i, &method));
+    CHECK(strlen(method.summary) > 0 && method.source != NULL);
+    found += strcmp(method.name, "branch_and_bound") == 0;
+  }
+  CHECK(found == 1);
+  const char* isa = NULL;
+  CHECK_OK(landfall_active_isa(&isa));
+  CHECK(strlen(isa) > 0);
+  CHECK(strncmp(landfall_version(), "0.", 2) == 0);
+}
+
+int main(void) {
+  landfall_map* map = make_room();
+  CHECK_OK(landfall_map_prepare(map));
+  landfall_sensor* scanner = make_scanner();
+  landfall_scans* scans = simulate_scan(map, scanner);
+  landfall_sensor_free(scanner); /* the scans keep it alive */
+  search_under_every_prior(map, scans);
+  search_under_a_mixture_of_two_maps(map, scans);
+  list_methods();
+  landfall_scans_free(scans);
+  landfall_map_free(map);
+  return 0;
+}
