@@ -28,10 +28,11 @@ GridMap make_grid(const Extent& extent, const ExtentGridOptions& options) {
   const double first_row = cell_of(extent.low.y_m - options.margin_m);
   const double width = cell_of(extent.high.x_m + options.margin_m) - first_col + 1.0;
   const double height = cell_of(extent.high.y_m + options.margin_m) - first_row + 1.0;
-  if (!(width * height <= static_cast<double>(max_map_cells)))
+  if (!(width * height <= static_cast<double>(max_map_cells)) || std::max(width, height) > max_map_side_cells)
     throw Error(ErrorCode::too_large, options.what + ": " + std::to_string(width) + " x " +
                                           std::to_string(height) + " cells are needed, at most " +
-                                          std::to_string(max_map_cells) + " are taken");
+                                          std::to_string(max_map_cells) + " and " +
+                                          std::to_string(max_map_side_cells) + " a side are taken");
   const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   return {.width_cells = static_cast<int>(width),
           .height_cells = static_cast<int>(height),
