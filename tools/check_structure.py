@@ -25,6 +25,14 @@ def project_files():
         yield from sorted(p for p in (ROOT / folder).rglob("*") if p.suffix in SUFFIXES)
 
 
+def may_include(folder, other):
+    return other == folder or other in MAY_INCLUDE.get(folder, {other})
+
+
+def names_embree(path, line):
+    return path.suffix in (".hpp", ".cpp") and EMBREE_NAME.search(line.split("//")[0])
+
+
 def faults(path):
     name = path.relative_to(ROOT)
     folder = name.parts[0]
@@ -33,10 +41,9 @@ def faults(path):
         yield f"{name}: {len(lines)} lines, at most {MAX_LINES} are allowed: split it"
     for number, line in enumerate(lines, start=1):
         include = INCLUDE.match(line)
-        other = include.group(1) if include else folder
-        if other in (*FOLDERS, "landfall") and other != folder and other not in MAY_INCLUDE.get(folder, {other}):
-            yield f"{name}:{number}: {folder} must not include {other}"
-        if folder != "raycast" and path.suffix in (".hpp", ".cpp") and EMBREE_NAME.search(line.split("//")[0]):
+        if include and include[1] in (*FOLDERS, "landfall") and not may_include(folder, include[1]):
+            yield f"{name}:{number}: {folder} must not include {include[1]}"
+        if folder != "raycast" and names_embree(path, line):
             yield f"{name}:{number}: Embree is named outside raycast/"
 
 

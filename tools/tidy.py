@@ -1,5 +1,8 @@
-"""clang-tidy over the project's own sources, two at a time by default. A file that passed is not checked again until
-it, a project header it reaches, its compile command, or clang-tidy's rules change."""
+"""clang-tidy over the project's own sources, as many at a time as there are cores.
+
+A file that passed is checked again only when it, a project header it reaches, its compile command, or
+clang-tidy's rules change.
+"""
 
 import argparse
 import hashlib
