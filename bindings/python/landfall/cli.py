@@ -1,0 +1,65 @@
+"""The `landfall` command: one file per subcommand in landfall/commands/."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from landfall import __version__
+from landfall.commands import convert, demo, evaluate, map, methods, relocalize, search, simulate
+from landfall.errors import Error
+
+try:
+    from typer import TyperException as UsageProblem
+except ImportError:  # Typer before it brought its own Click
+    from click import ClickException as UsageProblem
+
+app = typer.Typer(
+    help="Global relocalization from range scans and a known map.",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+for command in (demo, relocalize, search, map, simulate, evaluate, convert, methods):
+    name = command.__name__.rsplit(".", 1)[-1]
+    app.command(name)(command.run)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"landfall {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print it and leave.")
+    ] = False,
+) -> None:
+    pass
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command. The caller's or a file's fault is one line on stderr and exit code 2."""
+    given = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    try:
+        return app(args=given, prog_name="landfall", standalone_mode=False) or 0
+    except UsageProblem as problem:
+        return _complain(problem.format_message())
+    except Error as error:
+        return _complain(str(error))
+    except (KeyboardInterrupt, typer.Abort):
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # silences the flush at exit
+        return 1
+
+
+def _complain(message: str) -> int:
+    print("landfall: " + " ".join(message.split()), file=sys.stderr)
+    return 2

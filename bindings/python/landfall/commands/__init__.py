@@ -1,0 +1,1 @@
+"""The subcommands; each module's run() is one."""

@@ -1,0 +1,105 @@
+"""landfall evaluate: estimates against truth."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from landfall._landfall import load_trajectory
+from landfall.commands.tables import print_table
+from landfall.errors import InvalidArgument
+from landfall.evaluation import judge, load_estimates, report
+
+
+def run(
+    estimate: Annotated[Path, typer.Option("--estimate", help="poses.tum or results.jsonl.")],
+    truth: Annotated[Path, typer.Option("--truth", help="TUM trajectory of the robot's true poses.")],
+    translation_m: Annotated[float, typer.Option("--translation-m", help="Right within this.")] = 0.25,
+    rotation_deg: Annotated[float, typer.Option("--rotation-deg", help="And within this.")] = 3.0,
+    skip_first: Annotated[
+        int, typer.Option("--skip-first", help="Leave out the truth's first lines (a TUM file of windows).")
+    ] = 0,
+    exclude_index: Annotated[
+        str, typer.Option("--exclude-index", help="Truth lines to set aside, from 0: 198,199.")
+    ] = "",
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
+) -> None:
+    """Success rate and errors; with results.jsonl also whether verdicts and probabilities are honest.
+
+    All queries count, and no hypothesis is a failure. Queries are the lines of results.jsonl that truth knows;
+    for a TUM file, which has no line where nothing was found, they are the lines of the truth.
+    """
+    estimates, estimates_are_queries = load_estimates(estimate)
+    judged = judge(
+        load_trajectory(truth),
+        estimates,
+        estimates_are_queries=estimates_are_queries,
+        skip_first=skip_first,
+        exclude=_indices(exclude_index),
+    )
+    numbers = report(judged, translation_m, math.radians(rotation_deg))
+    if as_json:
+        print(json.dumps(numbers))
+    else:
+        print_report(numbers)
+
+
+def _indices(text: str) -> set[int]:
+    try:
+        return {int(part) for part in text.split(",") if part.strip()}
+    except ValueError:
+        raise InvalidArgument(f"--exclude-index {text!r}: expected whole numbers like 198,199") from None
+
+
+def print_report(numbers: dict) -> None:
+    """The tables that a person reads."""
+    translation, rotation = numbers["translation_m"], numbers["rotation_deg"]
+    within = numbers["within"]
+    print_table(
+        [
+            ("queries", str(numbers["queries"])),
+            ("answered", str(numbers["answered"])),
+            (
+                f"right (within {within['translation_m']:g} m and {within['rotation_deg']:g} deg)",
+                str(numbers["right"]),
+            ),
+            ("success rate", _percent(numbers["success_rate"])),
+            ("position error of the right, median / 95 %", _pair(translation, "m", 3)),
+            ("heading error of the right, median / 95 %", _pair(rotation, "deg", 2)),
+        ]
+    )
+    if "verdicts" in numbers:
+        _print_verdicts(numbers["verdicts"])
+        _print_probabilities(numbers["probability"])
+
+
+def _print_verdicts(verdicts: dict) -> None:
+    rows = [
+        (name, str(verdicts[name]["queries"]), str(verdicts[name]["right"]))
+        for name in ("found", "ambiguous", "lost")
+    ]
+    print_table(rows, ("verdict", "queries", "right"))
+    print(f"of the found, right: {_percent(verdicts['found_that_are_right'])}")
+    print(f"of the right, found: {_percent(verdicts['right_that_are_found'])}")
+
+
+def _print_probabilities(bins: list[dict]) -> None:
+    rows = [
+        (f"{row['from']:g} to {row['to']:g}", str(row["queries"]), str(row["right"]), _percent(row["precision"]))
+        for row in bins
+    ]
+    print_table(rows, ("probability", "queries", "right", "precision"))
+
+
+def _percent(share: float | None) -> str:
+    return "-" if share is None else f"{100.0 * share:.2f} %"
+
+
+def _pair(quantiles: dict, unit: str, digits: int) -> str:
+    if quantiles["median"] is None:
+        return "-"
+    return f"{quantiles['median']:.{digits}f} / {quantiles['p95']:.{digits}f} {unit}"

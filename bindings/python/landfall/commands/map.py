@@ -1,0 +1,58 @@
+"""landfall map: a log into a map."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from landfall._landfall import Pose2, Scan, load_trajectory, map_from_known_poses, save_grid_map
+from landfall.commands.options import LogFile, SensorFile, read_log
+from landfall.errors import InvalidArgument, UnknownName
+from landfall.outputs import require_folder
+
+METHODS = ("known-poses",)
+POSE_TOLERANCE_S = 0.02
+
+
+def run(
+    log: LogFile,
+    out: Annotated[Path, typer.Option("--out", help="ROS map .yaml; the image goes beside it.")],
+    method: Annotated[str, typer.Option("--method", help=", ".join(METHODS))] = "known-poses",
+    poses: Annotated[
+        Path | None, typer.Option("--poses", help="TUM trajectory of T_map_robot instead of the log's poses.")
+    ] = None,
+    resolution_m: Annotated[float, typer.Option("--resolution-m", help="Cell size.")] = 0.05,
+    range_max_m: Annotated[
+        float, typer.Option("--range-max-m", help="Longer echoes free their first metres only; 0: no limit.")
+    ] = 0.0,
+    from_index: Annotated[int, typer.Option("--from-index", help="First scan.")] = 0,
+    to_index: Annotated[int | None, typer.Option("--to-index", help="One past the last scan.")] = None,
+    sensor: SensorFile = None,
+) -> None:
+    """An occupancy grid from scans whose poses are known: corrected logs, a localizer's tf, or --poses."""
+    if method not in METHODS:
+        raise UnknownName(f"--method {method}: unknown; known: {', '.join(METHODS)}")
+    require_folder(out)
+    scans = read_log(log, sensor).scans[from_index:to_index]
+    if poses is not None:
+        set_poses(scans, load_trajectory(poses))
+    located = [scan for scan in scans if scan.T_map_robot is not None]
+    if not located:
+        raise InvalidArgument(f"{log}: none of {len(scans)} scans has a known pose: give --poses")
+    grid = map_from_known_poses(located, resolution_m=resolution_m, range_max_m=range_max_m)
+    save_grid_map(grid, out)
+    print(f"{out}: {grid.width_cells} x {grid.height_cells} cells from {len(located)} of {len(scans)} scans")
+
+
+def set_poses(scans: Sequence[Scan], trajectory: Sequence[tuple[float, Pose2]]) -> None:
+    """Gives each scan the pose with its time stamp, or none."""
+    ordered = sorted(trajectory, key=lambda stamped: stamped[0])
+    stamps = [stamp_s for stamp_s, _ in ordered]
+    for scan in scans:
+        at = bisect_left(stamps, scan.stamp_s - POSE_TOLERANCE_S)
+        near = at < len(stamps) and stamps[at] <= scan.stamp_s + POSE_TOLERANCE_S
+        scan.T_map_robot = ordered[at][1] if near else None

@@ -1,0 +1,31 @@
+"""landfall methods: the search methods, from the code."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from landfall._landfall import active_isa, methods
+
+
+def run(
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
+) -> None:
+    """The search methods, and the instruction set that the kernels run with."""
+    rows = methods()
+    if as_json:
+        table = [{"name": n, "summary": s, "source": source} for n, s, source in rows]
+        print(json.dumps({"isa": active_isa(), "methods": table}))
+        return
+    table = Table()
+    for column in ("method", "what it is", "source"):
+        table.add_column(column)
+    for row in rows:
+        table.add_row(*row)
+    console = Console()
+    console.print(table)
+    console.print(f"kernels: {active_isa()}")

@@ -1,0 +1,82 @@
+"""Options that several subcommands share, and what they load."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from landfall._landfall import Anywhere, Log, PosePrior, PreparedMap, Sensor, load_map, load_prior, load_sensors
+from landfall.errors import InvalidArgument, UnknownName
+from landfall.logs import load_log
+
+Maps = Annotated[
+    list[Path], typer.Option("--map", help="ROS map .yaml or wall plan .json; may be given several times.")
+]
+OneMap = Annotated[Path, typer.Option("--map", help="ROS map .yaml or wall plan .json.")]
+LogFile = Annotated[
+    Path, typer.Option("--log", help="CARMEN text (also gzipped), scan lines .jsonl, ROS 1 .bag, sonar table.")
+]
+SensorFile = Annotated[
+    Path | None, typer.Option("--sensor", help="Sensor .yaml that replaces the log's own, by name.")
+]
+PriorText = Annotated[str, typer.Option("--prior", help="anywhere, place:NAME, or a prior .json.")]
+Method = Annotated[str, typer.Option("--method", help="Search method: see `landfall methods`.")]
+Threads = Annotated[int, typer.Option("--threads", help="0: all cores.")]
+MaxHypotheses = Annotated[int, typer.Option("--max-hypotheses", help="Most hypotheses per answer.")]
+TimeBudget = Annotated[float, typer.Option("--time-budget-s", help="Per scan; 0: none.")]
+TranslationStep = Annotated[float, typer.Option("--translation-step-m", help="0: the map's resolution.")]
+RotationStep = Annotated[float, typer.Option("--rotation-step-deg", help="Heading step, degrees.")]
+RobotRadius = Annotated[
+    float, typer.Option("--robot-radius-m", help="A pose is possible where this disc is free.")
+]
+Seed = Annotated[int, typer.Option("--seed", help="Of everything random.")]
+
+
+def load_maps(paths: list[Path]) -> list[PreparedMap]:
+    """Each under its file's name, without the ending (the folder's where that is plain `map`)."""
+    return [load_map(path, name=_map_name(path)) for path in paths]
+
+
+def _map_name(path: Path) -> str:
+    return path.resolve().parent.name if path.stem == "map" else path.stem
+
+
+def read_prior(text: str) -> PosePrior:
+    """Raises UnknownName, FileNotFound, FileFormat."""
+    if text == "anywhere":
+        return PosePrior(Anywhere())
+    if text.startswith("place:"):
+        raise UnknownName(f"--prior {text}: no places file is known, so there is no place '{text[6:]}'")
+    return load_prior(Path(text))
+
+
+def read_log(path: Path, sensor_file: Path | None = None) -> Log:
+    """The log, its sensors replaced by the file's of the same names. Raises UnknownName where none matches."""
+    if sensor_file is None:
+        return load_log(path)
+    sensors = load_sensors(sensor_file)
+    log = load_log(path, sensors)
+    used = {scan.sensor.name for scan in log.scans}
+    if log.scans and not used & {sensor.name for sensor in sensors.values()}:
+        raise UnknownName(
+            f"{sensor_file}: sensor {_quoted(sensors)} does not occur in {path}, which has {_quoted(used)}"
+        )
+    return log
+
+
+def one_sensor(path: Path, name: str | None) -> Sensor:
+    """The file's only sensor, or the one of that name."""
+    sensors = load_sensors(path)
+    if name is None:
+        if len(sensors) != 1:
+            raise InvalidArgument(f"{path}: {len(sensors)} sensors ({_quoted(sensors)}): name one")
+        return next(iter(sensors.values()))
+    if name not in sensors:
+        raise UnknownName(f"{path}: no sensor '{name}'; it defines {_quoted(sensors)}")
+    return sensors[name]
+
+
+def _quoted(names: object) -> str:
+    return ", ".join(f"'{name}'" for name in sorted(names))  # type: ignore[call-overload]

@@ -1,0 +1,190 @@
+"""landfall relocalize: a pose per scan of a log."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from landfall._landfall import Log, Scan, consistent
+from landfall.commands.options import (
+    LogFile,
+    MaxHypotheses,
+    Maps,
+    Method,
+    PriorText,
+    RobotRadius,
+    RotationStep,
+    Seed,
+    SensorFile,
+    Threads,
+    TimeBudget,
+    TranslationStep,
+    load_maps,
+    read_log,
+    read_prior,
+)
+from landfall.commands.tables import print_table
+from landfall.errors import InvalidArgument
+from landfall.interrupts import CleanStop
+from landfall.outputs import ResultsFile, add_chosen, make_folder, require_folder, write_trajectory
+from landfall.progress import progress_bar
+from landfall.relocalization import Answers, Question, relocalize
+from landfall.searching import search_options
+from landfall.windows import Query, scan_windows, single_queries, time_windows, with_motion
+
+
+def run(
+    map: Maps,
+    log: LogFile,
+    out: Annotated[Path | None, typer.Option("--out", help="TUM trajectory of the best poses.")] = None,
+    results: Annotated[Path | None, typer.Option("--results", help="results.jsonl: a line per query.")] = None,
+    picture: Annotated[Path | None, typer.Option("--picture", help="Draw all best poses here.")] = None,
+    pictures: Annotated[int, typer.Option("--pictures", help="Draw so many single answers.")] = 0,
+    pictures_dir: Annotated[
+        Path | None, typer.Option("--pictures-dir", help="Folder of --pictures; by default beside --out.")
+    ] = None,
+    method: Method = "auto",
+    prior: PriorText = "anywhere",
+    every: Annotated[int, typer.Option("--every", min=1, help="Every n-th scan or window.")] = 1,
+    limit: Annotated[int | None, typer.Option("--limit", min=1, help="At most so many queries.")] = None,
+    window_scans: Annotated[
+        int | None, typer.Option("--window-scans", min=1, help="Ask windows of n scans, aligned and merged.")
+    ] = None,
+    window_s: Annotated[float | None, typer.Option("--window-s", help="Ask windows of so many seconds.")] = None,
+    window_max_scans: Annotated[
+        int, typer.Option("--window-max-scans", min=0, help="Evenly spread scans of a window; 0: all.")
+    ] = 0,
+    disjoint: Annotated[bool, typer.Option("--disjoint", help="Windows one after the other.")] = False,
+    min_motion_m: Annotated[float, typer.Option("--min-motion-m", help="Leave out windows that moved less.")] = 0.0,
+    consistent: Annotated[
+        bool, typer.Option("--consistent", help="Choose among hypotheses by odometry over the whole log.")
+    ] = False,
+    one_at_a_time: Annotated[
+        bool, typer.Option("--one-at-a-time", help="All threads for each scan (latency), not one (throughput).")
+    ] = False,
+    sensor: SensorFile = None,
+    threads: Threads = 0,
+    max_hypotheses: MaxHypotheses = 5,
+    time_budget_s: TimeBudget = 0.0,
+    translation_step_m: TranslationStep = 0.0,
+    rotation_step_deg: RotationStep = 0.5,
+    robot_radius_m: RobotRadius = 0.0,
+    seed: Seed = 0,
+) -> None:
+    """A pose per scan (or window of scans) of a log, with no starting guess or a rough one.
+
+    Ctrl-C stops cleanly: what is finished is on disk, whole.
+    """
+    options = search_options(
+        method=method,
+        threads=threads,
+        max_hypotheses=max_hypotheses,
+        time_budget_s=time_budget_s,
+        translation_step_m=translation_step_m,
+        rotation_step_rad=math.radians(rotation_step_deg),
+        robot_radius_m=robot_radius_m,
+        seed=seed,
+    )
+    for path in (out, results, picture):
+        if path is not None:
+            require_folder(path)
+    maps = load_maps(map)
+    question = Question(maps, read_prior(prior), options, one_at_a_time, window_max_scans)
+    scans = _scans(log, read_log(log, sensor), consistent)
+    queries = _queries(scans, window_scans, window_s, disjoint, every, min_motion_m)[:limit]
+    if not queries:
+        raise InvalidArgument(f"{log}: {len(scans)} scans make no query with these windows")
+    drawn = _evenly(len(queries), pictures)
+
+    with CleanStop() as stop:
+        with progress_bar() as bar, ResultsFile(results) as results_file:
+            task = bar.add_task("relocalize", total=len(queries))
+            answers, tally = relocalize(
+                scans,
+                queries,
+                question,
+                results_file=results_file,
+                keep=lambda position: consistent or position in drawn,
+                on_progress=lambda n: bar.advance(task, n),
+                stop=stop,
+            )
+        if consistent:
+            _choose(answers, scans, results)
+        if out is not None:
+            write_trajectory(answers.trajectory(), out)
+    print_table(tally.rows())
+    _draw(answers, scans, question, picture, drawn, pictures_dir or (out or Path(".")).parent / "pictures")
+    if stop.requested:
+        typer.echo(f"landfall: stopped after {len(answers.queries)} of {len(queries)} queries", err=True)
+        raise typer.Exit(stop.exit_code)
+
+
+def _scans(path: Path, log: Log, need_odometry: bool) -> list[Scan]:
+    scans = log.scans
+    for warning in log.warnings:
+        typer.echo(f"landfall: warning: {warning}", err=True)
+    if not scans:
+        raise InvalidArgument(f"{path}: no scans")
+    if need_odometry and any(scan.T_odom_robot is None for scan in scans):
+        raise InvalidArgument(f"{path}: --consistent needs odometry with every scan")
+    return scans
+
+
+def _queries(
+    scans: list[Scan],
+    window_scans: int | None,
+    window_s: float | None,
+    disjoint: bool,
+    every: int,
+    min_motion_m: float,
+) -> list[Query]:
+    if window_scans is not None and window_s is not None:
+        raise InvalidArgument("--window-scans and --window-s: give one of them")
+    if window_s is not None:
+        if not (math.isfinite(window_s) and window_s > 0):
+            raise InvalidArgument(f"--window-s {window_s:g}: expected a positive number of seconds")
+        queries = time_windows(scans, window_s, disjoint, every)
+    elif window_scans is not None:
+        queries = scan_windows(len(scans), window_scans, disjoint, every)
+    else:
+        queries = single_queries(len(scans), every)
+    return with_motion(scans, queries, min_motion_m) if min_motion_m > 0 else queries
+
+
+def _choose(answers: Answers, scans: list[Scan], results: Path | None) -> None:
+    """The most probable sequence of hypotheses, in place of each query's first."""
+    kept = [answers.kept[position] for position in range(len(answers.queries))]
+    choices = consistent(kept, [scans[query.last].T_odom_robot for query in answers.queries])
+    answers.choose(choices)
+    if results is not None:
+        add_chosen(results, choices)
+
+
+def _evenly(count: int, wanted: int) -> set[int]:
+    """Positions of `wanted` queries spread over all."""
+    wanted = min(wanted, count)
+    return {round(k * (count - 1) / max(wanted - 1, 1)) for k in range(wanted)}
+
+
+def _draw(
+    answers: Answers,
+    scans: list[Scan],
+    question: Question,
+    picture: Path | None,
+    drawn: set[int],
+    folder: Path,
+) -> None:
+    if picture is None and not drawn:
+        return
+    from landfall.pictures import draw_answer, draw_trajectory  # matplotlib takes a while to import
+
+    if picture is not None:
+        draw_trajectory(question.maps, answers, picture)
+    for position in sorted(drawn & set(answers.kept)):
+        query = answers.queries[position]
+        scan = query.scan(scans, question.window_max_scans, question.options.threads)
+        file = make_folder(folder) / f"query_{query.last:05d}.png"
+        draw_answer(question.maps, scan, answers.kept[position], file)

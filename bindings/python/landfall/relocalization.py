@@ -1,0 +1,132 @@
+"""A log against maps, in chunks: progress, a clean stop, everything finished so far on disk."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from landfall._landfall import Pose2, PosePrior, PreparedMap, Scan, SearchOptions, SearchResult, search_batch
+from landfall.interrupts import CleanStop
+from landfall.outputs import ResultsFile
+from landfall.windows import Query
+
+CHUNK_S = 0.3  # work between two looks at the clock: the bar moves and Ctrl-C is answered
+MAX_CHUNK = 256
+
+
+@dataclass
+class Question:
+    """What is asked of each query."""
+
+    maps: Sequence[PreparedMap]
+    prior: PosePrior
+    options: SearchOptions
+    one_at_a_time: bool = False  # each scan has all threads to itself
+    window_max_scans: int = 0
+
+    def ask(self, log: Sequence[Scan], queries: Sequence[Query]) -> list[SearchResult]:
+        scans = [q.scan(log, self.window_max_scans, self.options.threads) for q in queries]
+        if not self.one_at_a_time:
+            return search_batch(self.maps, [self.prior], scans, self.options)
+        return [search_batch(self.maps, [self.prior], [scan], self.options)[0] for scan in scans]
+
+
+@dataclass
+class Tally:
+    """The numbers of the table at the end, without the results themselves."""
+
+    verdicts: list[str] = field(default_factory=list)
+    search_ms: list[float] = field(default_factory=list)
+    started_s: float = field(default_factory=time.monotonic)
+
+    def add(self, result: SearchResult) -> None:
+        self.verdicts.append(result.verdict)
+        self.search_ms.append(result.times.total_ms)
+
+    def rows(self) -> list[tuple[str, str]]:
+        count = len(self.verdicts)
+        wall_s = time.monotonic() - self.started_s
+        rows = [("queries", str(count))]
+        for verdict in ("found", "ambiguous", "lost"):
+            share = 100.0 * self.verdicts.count(verdict) / max(count, 1)
+            rows.append((verdict, f"{self.verdicts.count(verdict)} ({share:.1f} %)"))
+        if count:
+            median, p95 = np.percentile(self.search_ms, [50, 95])
+            rows.append(("search_ms, median", f"{median:.2f}"))
+            rows.append(("search_ms, 95th percentile", f"{p95:.2f}"))
+        rows.append(("scans/s", f"{count / max(wall_s, 1e-9):.1f}"))
+        return rows
+
+
+@dataclass
+class Answers:
+    """What later steps need of every query: its best pose, and the result itself where it is kept."""
+
+    queries: list[Query] = field(default_factory=list)
+    stamps_s: list[float] = field(default_factory=list)
+    poses: list[Pose2 | None] = field(default_factory=list)
+    verdicts: list[str] = field(default_factory=list)
+    map_indices: list[int] = field(default_factory=list)
+    kept: dict[int, SearchResult] = field(default_factory=dict)  # by position
+
+    def add(self, query: Query, result: SearchResult, keep: bool) -> None:
+        if keep:
+            self.kept[len(self.queries)] = result
+        self.queries.append(query)
+        self.stamps_s.append(result.stamp_s)
+        self.verdicts.append(result.verdict)
+        self._append_choice(result, 0 if result.hypotheses else -1)
+
+    def _append_choice(self, result: SearchResult, choice: int) -> None:
+        best = result.hypotheses[choice] if choice >= 0 else None
+        self.poses.append(best.T_map_robot if best else None)
+        self.map_indices.append(best.map_index if best else 0)
+
+    def choose(self, choices: Sequence[int]) -> None:
+        """Replaces the first hypotheses by the chosen ones; every result must have been kept."""
+        self.poses, self.map_indices = [], []
+        for position, choice in enumerate(choices):
+            self._append_choice(self.kept[position], choice)
+
+    def trajectory(self) -> list[tuple[float, Pose2]]:
+        return [(s, pose) for s, pose in zip(self.stamps_s, self.poses, strict=True) if pose is not None]
+
+
+def relocalize(
+    log: Sequence[Scan],
+    queries: Sequence[Query],
+    question: Question,
+    *,
+    results_file: ResultsFile,
+    keep: Callable[[int], bool],
+    on_progress: Callable[[int], None],
+    stop: CleanStop,
+) -> tuple[Answers, Tally]:
+    """Asks the queries chunk by chunk until all are answered or a stop is requested.
+
+    keep(position): whether that result stays in memory. on_progress(n): n more are done.
+    """
+    answers, tally = Answers(), Tally()
+    size, position = 1, 0
+    while position < len(queries) and not stop.requested:
+        chunk = queries[position : position + size]
+        started_s = time.monotonic()
+        for query, result in zip(chunk, question.ask(log, chunk), strict=True):
+            results_file.write(result.to_json(query.last))
+            answers.add(query, result, keep(len(answers.queries)))
+            tally.add(result)
+        results_file.flush()
+        on_progress(len(chunk))
+        position += len(chunk)
+        size = _next_size(size, time.monotonic() - started_s)
+    return answers, tally
+
+
+def _next_size(size: int, took_s: float) -> int:
+    """Twice as many while a chunk is quick, half as many when it is slow."""
+    if took_s < CHUNK_S / 2:
+        return min(2 * size, MAX_CHUNK)
+    return max(size // 2, 1) if took_s > 2 * CHUNK_S else size

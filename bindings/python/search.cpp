@@ -1,0 +1,75 @@
+// The search itself, and the log as a whole.
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bindings.hpp"
+#include "landfall/consistent.hpp"
+#include "landfall/search.hpp"
+
+namespace landfall::python {
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+void bind_options(nb::module_& module) {
+  nb::class_<SearchOptions>(module, "SearchOptions", "The options of search(), with their defaults.")
+      .def(nb::init<>())
+      .def_rw("method", &SearchOptions::method, "A name of methods().")
+      .def_rw("translation_step_m", &SearchOptions::translation_step_m,
+              "0: the map's resolution; else a multiple of it.")
+      .def_rw("rotation_step_rad", &SearchOptions::rotation_step_rad)
+      .def_rw("max_hypotheses", &SearchOptions::max_hypotheses)
+      .def_rw("time_budget_s", &SearchOptions::time_budget_s, "Per scan; 0: none.")
+      .def_rw("threads", &SearchOptions::threads, "0: all.")
+      .def_rw("seed", &SearchOptions::seed)
+      .def_rw("robot_radius_m", &SearchOptions::robot_radius_m)
+      .def_rw("distinct_translation_m", &SearchOptions::distinct_translation_m)
+      .def_rw("distinct_rotation_rad", &SearchOptions::distinct_rotation_rad);
+}
+
+}  // namespace
+
+void bind_search(nb::module_& module) {
+  bind_options(module);
+  module.def(
+      "search_batch",
+      [](const std::vector<PreparedMap>& maps, const std::vector<PosePrior>& priors,
+         const std::vector<Scan>& scans,
+         const SearchOptions& options) { return search(maps, priors, scans, options); },
+      "maps"_a, "priors"_a, "scans"_a, "options"_a, nb::call_guard<nb::gil_scoped_release>(),
+      "results[i] answers scans[i]; one prior for all scans, or one per scan. landfall.search() is the\n"
+      "friendlier form.");
+
+  const ConsistentOptions defaults;
+  module.def(
+      "consistent",
+      [](const std::vector<SearchResult>& results, const std::vector<Pose2>& T_odom_robot,
+         const OdometryNoise& odometry, double jump_probability) {
+        return consistent(results, T_odom_robot,
+                          {.odometry = odometry, .jump_probability = jump_probability});
+      },
+      "results"_a, "T_odom_robot"_a, nb::kw_only(), "odometry"_a = defaults.odometry,
+      "jump_probability"_a = defaults.jump_probability, nb::call_guard<nb::gil_scoped_release>(),
+      "Per result the index of the hypothesis that odometry ties to its neighbours' (Viterbi), or -1 where\n"
+      "it has none. Raises InvalidArgument where the lengths differ.");
+
+  module.def(
+      "methods",
+      [] {
+        std::vector<std::tuple<std::string, std::string, std::string>> rows;
+        for (const MethodInfo& method : methods())
+          rows.emplace_back(method.name, method.summary, method.source);
+        return rows;
+      },
+      "The search methods: (name, summary, source) each.");
+  module.def("active_isa", &active_isa,
+             "The instruction set that the kernels run with. LANDFALL_ISA forces a lower one.");
+}
+
+}  // namespace landfall::python
