@@ -1,4 +1,4 @@
-"""Rules that no compiler holds: which folder may include which, where Embree may be named, how long a file may be."""
+"""Rules that no compiler holds: what a folder may include, where Embree is named, how long a file is."""
 
 import re
 import sys
