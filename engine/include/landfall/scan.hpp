@@ -11,12 +11,12 @@
 namespace landfall {
 
 struct Scan {
-  std::shared_ptr<const Sensor> sensor;
-  std::vector<float> ranges_m;  // one per beam; NaN: invalid; >= the beam's range_max_m: nothing hit
+  std::shared_ptr<const Sensor> sensor{};
+  std::vector<float> ranges_m{};  // one per beam; NaN: invalid; >= the beam's range_max_m: nothing hit
   double stamp_s = 0.0;
-  std::optional<Pose2> T_odom_robot;  // odometry at that time
-  std::optional<Pose2> T_map_robot;   // a pose recorded in the log (corrected log, localizer): never
-                                      // used by search; the truth for mapping from known poses
+  std::optional<Pose2> T_odom_robot{};  // odometry at that time
+  std::optional<Pose2> T_map_robot{};   // a pose recorded in the log (corrected log, localizer): never
+                                        // used by search; the truth for mapping from known poses
 };
 
 enum class Reading { invalid, echo, no_echo };

@@ -10,7 +10,7 @@
 namespace landfall {
 
 struct Beam {
-  Pose2 T_robot_beam;           // mount: origin of the ray, and its direction as the heading
+  Pose2 T_robot_beam{};         // mount: origin of the ray, and its direction as the heading
   double half_angle_rad = 0.0;  // 0: a ray. A cone of 12 degrees has 6 degrees here
   double range_min_m = 0.0;     // a shorter reading is invalid
   double range_max_m = 80.0;    // this or more means that nothing was hit
@@ -18,8 +18,8 @@ struct Beam {
 };
 
 struct Sensor {
-  std::string name;
-  std::vector<Beam> beams;
+  std::string name{};
+  std::vector<Beam> beams{};
   double range_noise_m = 0.01;        // one sigma, constant part
   double range_noise_relative = 0.0;  // one sigma, part that grows with the range (0.01: 1 %)
   friend bool operator==(const Sensor&, const Sensor&) = default;
@@ -31,7 +31,7 @@ struct FanOptions {
   int beams = 180;
   double first_rad = 0.0;
   double step_rad = 0.0;
-  Pose2 T_robot_sensor;
+  Pose2 T_robot_sensor{};
   double half_angle_rad = 0.0;
   double range_min_m = 0.0;
   double range_max_m = 80.0;

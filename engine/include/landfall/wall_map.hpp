@@ -15,7 +15,7 @@ struct Wall {
 };
 
 struct WallMap {
-  std::vector<Wall> walls;
+  std::vector<Wall> walls{};
   friend bool operator==(const WallMap&, const WallMap&) = default;
 };
 
