@@ -15,6 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+FOLDERS = ("kernels", "raycast", "engine", "bindings", "bench", "tests")
 INCLUDE = re.compile(rb'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 INCLUDE_FOLDERS = (ROOT, ROOT / "engine/include", ROOT / "tests", ROOT / "bindings/c")
 
@@ -23,7 +24,7 @@ def own_sources(build):
     commands = json.loads((build / "compile_commands.json").read_text())
     for entry in commands:
         path = Path(entry["file"])
-        if path.is_relative_to(ROOT) and not path.is_relative_to(ROOT / "build"):
+        if path.is_relative_to(ROOT) and path.relative_to(ROOT).parts[0] in FOLDERS:
             yield path, entry["command"]
 
 
