@@ -20,8 +20,8 @@ class IntersectContext {
     arguments_.flags =
         coherence == Coherence::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   }
-  void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays) {
-    rtcIntersect16(valid, scene, &rays, &arguments_);
+  void intersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
+    rtcIntersect8(valid, scene, &rays, &arguments_);
   }
 
  private:
@@ -32,8 +32,8 @@ class IntersectContext {
     context_.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
                                                       : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
-  void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays) {
-    rtcIntersect16(valid, scene, &context_, &rays);
+  void intersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
+    rtcIntersect8(valid, scene, &context_, &rays);
   }
 
  private:

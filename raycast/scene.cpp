@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "raycast/embree_walls.hpp"
+#include "raycast/ray_beams.hpp"
 #include "raycast/segment_tree.hpp"
 
 namespace landfall::raycast {
@@ -21,47 +22,6 @@ Box bounds(std::span<const Segment> walls) {
   for (const Segment& wall : walls) box.add(wall);
   return box;
 }
-
-// The beams of a sensor that are rays, sixteen a packet, in the sensor's own frame.
-class RayBeams {
- public:
-  explicit RayBeams(std::span<const Beam> beams) {
-    for (std::size_t b = 0; b < beams.size(); ++b)
-      if (beams[b].half_angle_rad == 0.0) add(beams[b], b);
-  }
-  [[nodiscard]] std::size_t size() const { return beam_index_.size(); }
-  [[nodiscard]] std::size_t beam_index(std::size_t ray) const { return beam_index_[ray]; }
-
-  // Packet p as seen from a pose relative to the walls' centre.
-  [[nodiscard]] RayPacket packet_from(std::size_t p, float x_m, float y_m, float c, float s) const {
-    const RayPacket& local = packets_[p];
-    RayPacket world;
-    for (std::size_t i = 0; i < packet_rays; ++i) {
-      world.x_m[i] = x_m + c * local.x_m[i] - s * local.y_m[i];
-      world.y_m[i] = y_m + s * local.x_m[i] + c * local.y_m[i];
-      world.dx[i] = c * local.dx[i] - s * local.dy[i];
-      world.dy[i] = s * local.dx[i] + c * local.dy[i];
-      world.range_max_m[i] = local.range_max_m[i];
-    }
-    return world;
-  }
-
- private:
-  void add(const Beam& beam, std::size_t index) {
-    const std::size_t lane = beam_index_.size() % packet_rays;
-    if (lane == 0) packets_.push_back(RayPacket{});
-    RayPacket& packet = packets_.back();
-    packet.x_m[lane] = static_cast<float>(beam.x_m);
-    packet.y_m[lane] = static_cast<float>(beam.y_m);
-    packet.dx[lane] = static_cast<float>(std::cos(beam.theta_rad));
-    packet.dy[lane] = static_cast<float>(std::sin(beam.theta_rad));
-    packet.range_max_m[lane] = static_cast<float>(beam.range_max_m);
-    beam_index_.push_back(index);
-  }
-
-  std::vector<RayPacket> packets_;
-  std::vector<std::size_t> beam_index_;
-};
 
 Cone cone_from(const Pose& pose, const Beam& beam) {
   const double c = std::cos(pose.theta_rad);
@@ -109,8 +69,8 @@ void Scene::State::cast_ray_beams(const Pose& pose, const RayBeams& rays, std::s
   std::array<float, packet_rays> lanes_m;
   for (std::size_t first = 0; first < rays.size(); first += packet_rays) {
     const std::size_t count = std::min(packet_rays, rays.size() - first);
-    const RayPacket packet = rays.packet_from(first / packet_rays, x_m, y_m, c, s);
-    embree.trace(packet, count, Coherence::coherent, lanes_m);
+    const std::size_t p = first / packet_rays;
+    embree.trace(rays.packet_from(p, x_m, y_m, c, s), count, rays.coherence(p), lanes_m);
     for (std::size_t i = 0; i < count; ++i) ranges_m[rays.beam_index(first + i)] = lanes_m[i];
   }
 }

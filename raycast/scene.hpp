@@ -43,7 +43,7 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
 
   // ranges_m[i * beams.size() + b]: beam b from poses[i]; +inf: nothing within its range_max_m.
-  // Neighbouring beams should point to similar directions: 16 at a time are traced together.
+  // Neighbouring beams are traced together, which pays where they point to similar directions.
   void cast_fans(std::span<const Pose> poses, std::span<const Beam> beams, std::span<float> ranges_m) const;
   // One range per ray; the rays need have nothing in common.
   void cast_rays(std::span<const Ray> rays, std::span<float> ranges_m) const;

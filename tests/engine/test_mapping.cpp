@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drawing.hpp"
 #include "drawn_map.hpp"
 #include "landfall/error.hpp"
 #include "landfall/mapping.hpp"
@@ -15,20 +16,9 @@
 namespace landfall {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using testing::drawing_of;
 
-std::vector<std::string> draw(const GridMap& map) {
-  std::vector<std::string> lines;
-  for (int row = map.height_cells - 1; row >= 0; --row) {
-    std::string line;
-    for (int col = 0; col < map.width_cells; ++col) {
-      const Occupancy cell = map.at({.col = col, .row = row});
-      line += cell == Occupancy::occupied ? '#' : cell == Occupancy::free ? '.' : '?';
-    }
-    lines.push_back(line);
-  }
-  return lines;
-}
+constexpr double pi = std::numbers::pi;
 
 // A scan from (x, y) with one beam along x for each range.
 Scan forward_scan(double x_m, double y_m, const std::vector<float>& ranges_m) {
@@ -44,7 +34,7 @@ constexpr MappingOptions one_metre{.resolution_m = 1.0, .margin_m = 0.0};
 
 TEST(Mapping, ABeamFreesItsWayAndOccupiesItsEnd) {
   const std::vector<Scan> scans{forward_scan(0.5, 0.5, {3.0f})};
-  EXPECT_EQ(draw(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"...#"}));
+  EXPECT_EQ(drawing_of(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"...#"}));
 }
 
 TEST(Mapping, LeavesTheMarginUnknown) {
@@ -52,15 +42,15 @@ TEST(Mapping, LeavesTheMarginUnknown) {
   options.margin_m = 1.0;
   const std::vector<Scan> scans{forward_scan(0.5, 0.5, {1.0f})};
   const GridMap map = map_from_known_poses(scans, options);
-  EXPECT_EQ(draw(map), (std::vector<std::string>{"????", "?.#?", "????"}));
+  EXPECT_EQ(drawing_of(map), (std::vector<std::string>{"????", "?.#?", "????"}));
   EXPECT_EQ(map.T_map_grid, (Pose2{-1.0, -1.0, 0.0}));
 }
 
 TEST(Mapping, WithoutEchoNothingIsFreed) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<Scan> scans{forward_scan(0.5, 0.5, {nan, 80.0f, 2.0f})};
-  EXPECT_EQ(draw(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"..#"}));
-  EXPECT_EQ(draw(map_from_known_poses(std::vector{forward_scan(0.5, 0.5, {nan, 80.0f})}, one_metre)),
+  EXPECT_EQ(drawing_of(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"..#"}));
+  EXPECT_EQ(drawing_of(map_from_known_poses(std::vector{forward_scan(0.5, 0.5, {nan, 80.0f})}, one_metre)),
             (std::vector<std::string>{"?"}));
 }
 
@@ -70,30 +60,30 @@ TEST(Mapping, ACellCountsOnceAScanAndAHitWins) {
   ranges_m.push_back(2.0f);
   MappingOptions options = one_metre;
   options.free_log_odds = -0.5;  // one miss (-0.4) is not enough, two are
-  EXPECT_EQ(draw(map_from_known_poses(std::vector{forward_scan(0.5, 0.5, ranges_m)}, options)),
+  EXPECT_EQ(drawing_of(map_from_known_poses(std::vector{forward_scan(0.5, 0.5, ranges_m)}, options)),
             (std::vector<std::string>{"??#?#"}));
   const std::vector<Scan> twice{forward_scan(0.5, 0.5, ranges_m), forward_scan(0.5, 0.5, ranges_m)};
-  EXPECT_EQ(draw(map_from_known_poses(twice, options)), (std::vector<std::string>{"..#.#"}));
+  EXPECT_EQ(drawing_of(map_from_known_poses(twice, options)), (std::vector<std::string>{"..#.#"}));
 }
 
 TEST(Mapping, ManyMissesOutweighAHitThatMoved) {
   // Someone stood in the third cell once: 0.85 - 3 * 0.4 = -0.35.
   const std::vector<Scan> scans{forward_scan(0.5, 0.5, {2.0f}), forward_scan(0.5, 0.5, {3.0f}),
                                 forward_scan(0.5, 0.5, {3.0f}), forward_scan(0.5, 0.5, {3.0f})};
-  EXPECT_EQ(draw(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"...#"}));
+  EXPECT_EQ(drawing_of(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"...#"}));
 }
 
 TEST(Mapping, EvidenceIsBounded) {
   // A hundred hits stop at 3.5; ten misses (-4.0) then turn the cell to -0.5.
   std::vector<Scan> scans(100, forward_scan(0.5, 0.5, {2.0f}));
   scans.insert(scans.end(), 10, forward_scan(0.5, 0.5, {3.0f}));
-  EXPECT_EQ(draw(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"...#"}));
+  EXPECT_EQ(drawing_of(map_from_known_poses(scans, one_metre)), (std::vector<std::string>{"...#"}));
 }
 
 TEST(Mapping, AnEchoBeyondTheLimitFreesTheLimitAlone) {
   MappingOptions options = one_metre;
   options.range_max_m = 2.0;
-  EXPECT_EQ(draw(map_from_known_poses(std::vector{forward_scan(0.5, 0.5, {9.0f})}, options)),
+  EXPECT_EQ(drawing_of(map_from_known_poses(std::vector{forward_scan(0.5, 0.5, {9.0f})}, options)),
             (std::vector<std::string>{"..?"}));
 }
 
@@ -103,7 +93,7 @@ TEST(Mapping, UsesTheMountOfEachBeam) {
   scan.sensor = std::make_shared<const Sensor>(
       Sensor{.name = "left", .beams = {Beam{.T_robot_beam = {1.0, 0.0, pi / 2}}}});
   scan.T_map_robot->theta_rad = pi / 2;
-  EXPECT_EQ(draw(map_from_known_poses(std::vector{scan}, one_metre)),
+  EXPECT_EQ(drawing_of(map_from_known_poses(std::vector{scan}, one_metre)),
             (std::vector<std::string>{"#..", "???"}));
 }
 
@@ -126,12 +116,12 @@ TEST(Mapping, BringsBackTheRoomThatWasSimulated) {
   options.resolution_m = 0.5;
   options.margin_m = 0.0;
   // Corners, and the cell under the post, have no face that can be seen.
-  EXPECT_EQ(draw(map_from_known_poses(scans, options)), (std::vector<std::string>{"?########?",  //
-                                                                                  "#........#",  //
-                                                                                  "#..##....#",  //
-                                                                                  "#..##....#",  //
-                                                                                  "#......#.#",  //
-                                                                                  "?######?#?"}));
+  EXPECT_EQ(drawing_of(map_from_known_poses(scans, options)), (std::vector<std::string>{"?########?",  //
+                                                                                        "#........#",  //
+                                                                                        "#..##....#",  //
+                                                                                        "#..##....#",  //
+                                                                                        "#......#.#",  //
+                                                                                        "?######?#?"}));
 }
 
 TEST(Mapping, RefusesWhatItCannotMap) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drawing.hpp"
 #include "drawn_map.hpp"
 #include "landfall/error.hpp"
 #include "landfall/wall_map.hpp"
@@ -14,22 +15,11 @@
 namespace landfall {
 namespace {
 
+using testing::drawing_of;
+
 using ::testing::UnorderedElementsAre;
 
 constexpr double pi = std::numbers::pi;
-
-std::vector<std::string> draw(const GridMap& map) {
-  std::vector<std::string> lines;
-  for (int row = map.height_cells - 1; row >= 0; --row) {
-    std::string line;
-    for (int col = 0; col < map.width_cells; ++col) {
-      const Occupancy cell = map.at({.col = col, .row = row});
-      line += cell == Occupancy::occupied ? '#' : cell == Occupancy::free ? '.' : '?';
-    }
-    lines.push_back(line);
-  }
-  return lines;
-}
 
 WallMap rectangle(double x_m, double y_m, double width_m, double height_m) {
   const Point2 a{.x_m = x_m, .y_m = y_m};
@@ -94,7 +84,7 @@ TEST(ToWalls, FollowsARotatedOrigin) {
 TEST(ToGrid, MarksEveryCellThatAWallTouches) {
   // From (0.5, 0.5) to (3.5, 2.0): rises half a cell per column.
   const WallMap slope{.walls = {{{0.5, 0.5}, {3.5, 1.9}}}};
-  EXPECT_EQ(draw(to_grid(slope, {.resolution_m = 1.0, .margin_m = 0.0})),
+  EXPECT_EQ(drawing_of(to_grid(slope, {.resolution_m = 1.0, .margin_m = 0.0})),
             (std::vector<std::string>{".###",  //
                                       "##.."}));
 }
@@ -102,7 +92,7 @@ TEST(ToGrid, MarksEveryCellThatAWallTouches) {
 TEST(ToGrid, AWallThroughCornersStaysTight) {
   // The diagonal passes exactly through corners; its cells share edges, so that nothing slips through.
   const WallMap diagonal{.walls = {{{0.5, 0.5}, {2.5, 2.5}}}};
-  EXPECT_EQ(draw(to_grid(diagonal, {.resolution_m = 1.0, .margin_m = 0.0})),
+  EXPECT_EQ(drawing_of(to_grid(diagonal, {.resolution_m = 1.0, .margin_m = 0.0})),
             (std::vector<std::string>{"..#",  //
                                       ".##",  //
                                       "##."}));
@@ -110,31 +100,31 @@ TEST(ToGrid, AWallThroughCornersStaysTight) {
 
 TEST(ToGrid, WidensTheBoundingBoxByItsMargin) {
   const GridMap grid = to_grid(rectangle(1.25, 2.25, 1.0, 0.5), {.resolution_m = 0.5, .margin_m = 1.0});
-  EXPECT_EQ(draw(grid), (std::vector<std::string>{".......",  //
-                                                  ".......",  //
-                                                  "..###..",  //
-                                                  "..###..",  //
-                                                  ".......",  //
-                                                  "......."}));
+  EXPECT_EQ(drawing_of(grid), (std::vector<std::string>{".......",  //
+                                                        ".......",  //
+                                                        "..###..",  //
+                                                        "..###..",  //
+                                                        ".......",  //
+                                                        "......."}));
   EXPECT_EQ(grid.T_map_grid, (Pose2{.x_m = 0.0, .y_m = 1.0, .theta_rad = 0.0}));
 }
 
 TEST(ToGrid, FloodsTheOutside) {
   WallMap walls = rectangle(0.5, 0.5, 4.0, 3.0);
   const GridFromWallsOptions options{.resolution_m = 1.0, .margin_m = 1.0, .outside_unknown = true};
-  EXPECT_EQ(draw(to_grid(walls, options)), (std::vector<std::string>{"???????",  //
-                                                                     "?#####?",  //
-                                                                     "?#...#?",  //
-                                                                     "?#...#?",  //
-                                                                     "?#####?",  //
-                                                                     "???????"}));
+  EXPECT_EQ(drawing_of(to_grid(walls, options)), (std::vector<std::string>{"???????",  //
+                                                                           "?#####?",  //
+                                                                           "?#...#?",  //
+                                                                           "?#...#?",  //
+                                                                           "?#####?",  //
+                                                                           "???????"}));
   walls.walls.erase(walls.walls.begin());  // without its lower wall the room is outside, too
-  EXPECT_EQ(draw(to_grid(walls, options)), (std::vector<std::string>{"???????",  //
-                                                                     "?#####?",  //
-                                                                     "?#???#?",  //
-                                                                     "?#???#?",  //
-                                                                     "?#???#?",  //
-                                                                     "???????"}));
+  EXPECT_EQ(drawing_of(to_grid(walls, options)), (std::vector<std::string>{"???????",  //
+                                                                           "?#####?",  //
+                                                                           "?#???#?",  //
+                                                                           "?#???#?",  //
+                                                                           "?#???#?",  //
+                                                                           "???????"}));
 }
 
 TEST(ToGrid, BringsBackTheCellsWhoseOutlineItIsGiven) {
@@ -142,7 +132,7 @@ TEST(ToGrid, BringsBackTheCellsWhoseOutlineItIsGiven) {
   const std::vector<std::string> ring{"#####",  //
                                       "#...#",  //
                                       "#####"};
-  EXPECT_EQ(draw(to_grid(rectangle(0.5, 0.5, 4.0, 2.0), {.resolution_m = 1.0, .margin_m = 0.0})), ring);
+  EXPECT_EQ(drawing_of(to_grid(rectangle(0.5, 0.5, 4.0, 2.0), {.resolution_m = 1.0, .margin_m = 0.0})), ring);
 }
 
 ErrorCode error_of(const WallMap& map, const GridFromWallsOptions& options) {
