@@ -1,6 +1,7 @@
 #include "raycast/segment_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -10,26 +11,28 @@ namespace {
 constexpr std::size_t max_leaf_walls = 4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// least(wedge, best_m) over the cone's one or two convex wedges.
+// Distance to the nearest point in the cone's one or two convex wedges. least(wedge, best): the least of
+// `best` and the squared distances of all walls in the wedge.
 template <typename Least>
 double over_wedges(const Cone& cone, Least least) {
-  double best_m = infinity;
+  const double beyond = std::nextafter(cone.range_max_m * cone.range_max_m, infinity);
+  double best = beyond;
   if (cone.half_angle_rad <= std::numbers::pi / 2.0) {
-    best_m = least(Wedge(cone.x_m, cone.y_m, cone.theta_rad, cone.half_angle_rad), best_m);
+    best = least(Wedge(cone.x_m, cone.y_m, cone.theta_rad, cone.half_angle_rad), best);
   } else {
     const double half_rad = cone.half_angle_rad / 2.0;
-    best_m = least(Wedge(cone.x_m, cone.y_m, cone.theta_rad - half_rad, half_rad), best_m);
-    best_m = least(Wedge(cone.x_m, cone.y_m, cone.theta_rad + half_rad, half_rad), best_m);
+    best = least(Wedge(cone.x_m, cone.y_m, cone.theta_rad - half_rad, half_rad), best);
+    best = least(Wedge(cone.x_m, cone.y_m, cone.theta_rad + half_rad, half_rad), best);
   }
-  return best_m <= cone.range_max_m ? best_m : infinity;
+  return best < beyond ? std::sqrt(best) : infinity;
 }
 
 }  // namespace
 
 double nearest_in_cone(std::span<const Segment> walls, const Cone& cone) {
-  return over_wedges(cone, [&](const Wedge& wedge, double best_m) {
-    for (const Segment& wall : walls) best_m = std::min(best_m, wedge.distance_m(wall));
-    return best_m;
+  return over_wedges(cone, [&](const Wedge& wedge, double best) {
+    for (const Segment& wall : walls) best = std::min(best, wedge.squared_distance(wall));
+    return best;
   });
 }
 
@@ -61,30 +64,30 @@ void SegmentTree::build(std::size_t begin, std::size_t end) {
   build(middle, end);
 }
 
-double SegmentTree::nearest(const Wedge& wedge, std::size_t node, double bound_m, double best_m) const {
-  if (bound_m >= best_m) return best_m;
+double SegmentTree::nearest(const Wedge& wedge, std::size_t node, double bound, double best) const {
+  if (bound >= best) return best;
   const Node& here = nodes_[node];
   if (here.walls > 0) {
     for (std::size_t i = here.next; i < here.next + here.walls; ++i)
-      best_m = std::min(best_m, wedge.distance_m(walls_[i]));
-    return best_m;
+      best = std::min(best, wedge.squared_distance(walls_[i]));
+    return best;
   }
   std::size_t near = node + 1;
   std::size_t far = here.next;
-  double near_m = wedge.lower_bound_m(nodes_[near].box);
-  double far_m = wedge.lower_bound_m(nodes_[far].box);
-  if (far_m < near_m) {
+  double near_bound = wedge.squared_lower_bound(nodes_[near].box);
+  double far_bound = wedge.squared_lower_bound(nodes_[far].box);
+  if (far_bound < near_bound) {
     std::swap(near, far);
-    std::swap(near_m, far_m);
+    std::swap(near_bound, far_bound);
   }
-  best_m = nearest(wedge, near, near_m, best_m);
-  return nearest(wedge, far, far_m, best_m);
+  best = nearest(wedge, near, near_bound, best);
+  return nearest(wedge, far, far_bound, best);
 }
 
 double SegmentTree::nearest_in_cone(const Cone& cone) const {
   if (nodes_.empty()) return infinity;
-  return over_wedges(cone, [&](const Wedge& wedge, double best_m) {
-    return nearest(wedge, 0, wedge.lower_bound_m(nodes_[0].box), best_m);
+  return over_wedges(cone, [&](const Wedge& wedge, double best) {
+    return nearest(wedge, 0, wedge.squared_lower_bound(nodes_[0].box), best);
   });
 }
 

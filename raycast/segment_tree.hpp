@@ -38,8 +38,8 @@ class SegmentTree {
   };
 
   void build(std::size_t begin, std::size_t end);
-  // The least of best_m and the distance of any wall below the node; bound_m: the node's own bound.
-  [[nodiscard]] double nearest(const Wedge& wedge, std::size_t node, double bound_m, double best_m) const;
+  // The least of `best` and the squared distance of any wall below the node; `bound`: the node's own bound.
+  [[nodiscard]] double nearest(const Wedge& wedge, std::size_t node, double bound, double best) const;
 
   std::vector<Segment> walls_;
   std::vector<Node> nodes_;

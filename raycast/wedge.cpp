@@ -19,7 +19,7 @@ Wedge::Wedge(double apex_x_m, double apex_y_m, double theta_rad, double half_ang
                {std::sin(theta_rad + half_angle_rad), -std::cos(theta_rad + half_angle_rad)}} {}
 
 // Clips a + t (b - a), 0 <= t <= 1, by the wedge's two sides (Liang and Barsky 1984).
-double Wedge::distance_m(const Segment& wall) const {
+double Wedge::squared_distance(const Segment& wall) const {
   const double ax = wall.ax_m - apex_x_m_;
   const double ay = wall.ay_m - apex_y_m_;
   const double dx = wall.bx_m - wall.ax_m;
@@ -40,10 +40,12 @@ double Wedge::distance_m(const Segment& wall) const {
   const double length_squared = dx * dx + dy * dy;
   const double t_foot = length_squared > 0.0 ? -(ax * dx + ay * dy) / length_squared : 0.0;
   const double t = std::clamp(t_foot, t_first, t_last);
-  return std::hypot(ax + t * dx, ay + t * dy);
+  const double x = ax + t * dx;
+  const double y = ay + t * dy;
+  return x * x + y * y;
 }
 
-double Wedge::lower_bound_m(const Box& box) const {
+double Wedge::squared_lower_bound(const Box& box) const {
   const double min_x = box.min_x_m - apex_x_m_;
   const double min_y = box.min_y_m - apex_y_m_;
   const double max_x = box.max_x_m - apex_x_m_;
@@ -52,7 +54,9 @@ double Wedge::lower_bound_m(const Box& box) const {
     const double largest = std::max(n.x * min_x, n.x * max_x) + std::max(n.y * min_y, n.y * max_y);
     if (largest < 0.0) return std::numeric_limits<double>::infinity();
   }
-  return std::hypot(std::max({min_x, -max_x, 0.0}), std::max({min_y, -max_y, 0.0}));
+  const double outside_x = std::max({min_x, -max_x, 0.0});
+  const double outside_y = std::max({min_y, -max_y, 0.0});
+  return outside_x * outside_x + outside_y * outside_y;
 }
 
 }  // namespace landfall::raycast

@@ -21,10 +21,11 @@ class Wedge {
  public:
   Wedge(double apex_x_m, double apex_y_m, double theta_rad, double half_angle_rad);
 
-  // Distance from the apex to the nearest point of the wall's part within the wedge; +inf: none is.
-  [[nodiscard]] double distance_m(const Segment& wall) const;
-  // A lower bound of distance_m for every wall within the box; +inf: no such wall reaches the wedge.
-  [[nodiscard]] double lower_bound_m(const Box& box) const;
+  // Squared distance (m^2) from the apex to the nearest point of the wall's part within the wedge; +inf:
+  // none is.
+  [[nodiscard]] double squared_distance(const Segment& wall) const;
+  // A lower bound of that for every wall within the box; +inf: no such wall reaches the wedge.
+  [[nodiscard]] double squared_lower_bound(const Box& box) const;
 
  private:
   struct Normal {

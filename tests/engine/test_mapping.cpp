@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "data_folder.hpp"
 #include "drawing.hpp"
 #include "drawn_map.hpp"
 #include "landfall/error.hpp"
+#include "landfall/io.hpp"
 #include "landfall/mapping.hpp"
 #include "landfall/simulate.hpp"
 
@@ -122,6 +124,35 @@ TEST(Mapping, BringsBackTheRoomThatWasSimulated) {
                                                                                         "#..##....#",  //
                                                                                         "#......#.#",  //
                                                                                         "?######?#?"}));
+}
+
+// The share of `from`'s cells of this kind for which `to` has one at most `reach` cells away.
+double share_found(const GridMap& from, const GridMap& to, Occupancy kind, int reach) {
+  int cells = 0;
+  int found = 0;
+  for (int row = 0; row < from.height_cells; ++row)
+    for (int col = 0; col < from.width_cells; ++col) {
+      if (from.at({.col = col, .row = row}) != kind) continue;
+      ++cells;
+      const CellIndex same = to.cell_of(from.center_of({.col = col, .row = row}));
+      bool near = false;
+      for (int d = 0; d < (2 * reach + 1) * (2 * reach + 1); ++d)
+        near = near || to.at({.col = same.col - reach + d % (2 * reach + 1),
+                              .row = same.row - reach + d / (2 * reach + 1)}) == kind;
+      found += near;
+    }
+  return static_cast<double>(found) / cells;
+}
+
+// The map beside the log was made by others from the same poses; it keeps fainter walls.
+TEST(Mapping, AgreesWithTheMapThatComesWithARealLog) {
+  LANDFALL_REQUIRE_DATA();
+  const auto folder = testing::data_folder() / "intel";
+  const GridMap reference = load_grid_map(folder / "map.yaml");
+  const GridMap mapped = map_from_known_poses(load_log(folder / "map.log.gz").scans);
+  EXPECT_GT(share_found(reference, mapped, Occupancy::free, 0), 0.999);
+  EXPECT_GT(share_found(mapped, reference, Occupancy::occupied, 1), 0.995);
+  EXPECT_GT(share_found(reference, mapped, Occupancy::occupied, 1), 0.95);
 }
 
 TEST(Mapping, RefusesWhatItCannotMap) {
