@@ -36,7 +36,7 @@ class BagContent:
 
 
 def load_bag(path: str | PathLike[str], sensors: Mapping[str, Sensor] | None = None) -> Log:
-    """The laser scans of a ROS 1 bag in time order; odometry as T_odom_robot, a localizer's tf as T_map_robot.
+    """The laser scans of a ROS 1 bag, in time order, with odometry; a localizer's tf is T_map_robot.
 
     sensors: replaces what the messages imply, by topic. Raises FileNotFound, FileFormat (a damaged bag; a bag
     without a laser topic, with the topics that it has).
@@ -60,7 +60,9 @@ def _read(bag: Path) -> BagContent:
                 raise FileFormat(f"{bag}: no topic of type sensor_msgs/LaserScan; topics: {known}")
             wanted = [c for c in reader.connections if c.msgtype in (LASER, ODOMETRY, *TF)]
             for connection, _, raw in reader.messages(connections=wanted):
-                _add(content, connection.topic, connection.msgtype, reader.deserialize(raw, connection.msgtype))
+                _add(
+                    content, connection.topic, connection.msgtype, reader.deserialize(raw, connection.msgtype)
+                )
     except FileFormat:
         raise
     except Exception as cause:  # rosbags raises many kinds on damaged input, struct.error among them
@@ -116,7 +118,6 @@ class _ScanBuilder:
         self.content = content
         self.given = given
         self.made: dict[tuple, Sensor] = {}
-        
 
     def scan(self, topic: str, message: Any) -> Scan:
         stamp_s = _stamp(message.header)

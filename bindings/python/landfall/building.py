@@ -1,19 +1,29 @@
 """A made-up building and a drive through it: what `landfall demo` relocalizes.
 
-Two corridors run along the building and are joined at both ends; rooms of different widths, with doors, furniture
-and pillars, lie on three rows beside and between them. Everything follows from the seed.
+Two corridors run along the building and are joined at both ends; rooms of different widths, with doors,
+furniture and pillars, lie on three rows beside and between them. Everything follows from the seed.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from landfall._landfall import Pose2, PreparedMap, Scan, Sensor, WallMap, make_fan, simulate
-from landfall._landfall import translation_distance, wrap_angle
+from landfall._landfall import (
+    Pose2,
+    PreparedMap,
+    Scan,
+    Sensor,
+    WallMap,
+    make_fan,
+    simulate,
+    translation_distance,
+    wrap_angle,
+)
 
 WIDTH_M = 42.0
 CORRIDOR_M = 2.2
@@ -66,6 +76,8 @@ def make_building(seed: int) -> Building:
     _add_row(building, rng, (0, WIDTH_M), (upper + CORRIDOR_M, height), upper + CORRIDOR_M)
     for room in building.rooms:
         building.walls += _furniture(rng, room)
+    for corridor_y in building.corridors_y_m:
+        building.walls += _cupboards(rng, building, corridor_y)
     return building
 
 
@@ -82,7 +94,7 @@ def _add_row(
 ) -> None:
     """Rooms side by side. Without door_y_m the row lies between the corridors and each room picks a side."""
     cuts = _cuts(rng, *span_x)
-    for x0, x1 in zip(cuts, cuts[1:], strict=False):
+    for x0, x1 in itertools.pairwise(cuts):
         side = door_y_m if door_y_m is not None else span_y[int(rng.integers(2))]
         room = Room(x0, span_y[0], x1, span_y[1], float(rng.uniform(x0 + 0.9, x1 - 0.9)), side)
         building.rooms.append(room)
@@ -122,7 +134,9 @@ def _furniture(rng: np.random.Generator, room: Room) -> Iterator[Segment]:
     while x + 1.0 < room.x1_m:
         width, depth = float(rng.uniform(0.7, 1.6)), float(rng.uniform(0.4, 0.8))
         if rng.random() < 0.7:
-            yield from _rectangle(x, far_y - away * 0.03, min(x + width, room.x1_m - 0.1), far_y - away * depth)
+            yield from _rectangle(
+                x, far_y - away * 0.03, min(x + width, room.x1_m - 0.1), far_y - away * depth
+            )
         x += width + float(rng.uniform(0.3, 1.2))
     if rng.random() < 0.6:
         side_x = room.x0_m + 0.03 if rng.random() < 0.5 else room.x1_m - 0.43
@@ -132,6 +146,19 @@ def _furniture(rng: np.random.Generator, room: Room) -> Iterator[Segment]:
         cx, cy = room.center
         px, py = cx + float(rng.uniform(1.2, 1.6)), cy + away * 0.6
         yield from _rectangle(px, py, px + 0.35, py + 0.35)
+
+
+def _cupboards(rng: np.random.Generator, building: Building, corridor_y: float) -> Iterator[Segment]:
+    """Here and there along a corridor's walls, clear of the doors: no two stretches look quite alike."""
+    x = CORRIDOR_M + float(rng.uniform(1.0, 3.0))
+    while x < WIDTH_M - CORRIDOR_M - 2.0:
+        width, depth = float(rng.uniform(0.5, 1.6)), float(rng.uniform(0.25, 0.45))
+        side = 1.0 if rng.random() < 0.5 else -1.0
+        wall_y = corridor_y + side * CORRIDOR_M / 2
+        doors_x = [room.door_x_m for room in building.rooms if abs(room.door_y_m - wall_y) < 0.1]
+        if all(door_x + DOOR_M < x or x + width < door_x - DOOR_M for door_x in doors_x):
+            yield from _rectangle(x, wall_y, x + width, wall_y - side * depth)
+        x += width + float(rng.uniform(1.0, 4.0))
 
 
 def laser(range_noise_m: float = 0.01) -> Sensor:
@@ -175,7 +202,7 @@ def _visits(
 
 def _poses_along(corners: Sequence[tuple[float, float]], rng: np.random.Generator) -> Iterator[Pose2]:
     """A pose every STEP_M on each leg, weaving a little."""
-    for (x0, y0), (x1, y1) in zip(corners, corners[1:], strict=False):
+    for (x0, y0), (x1, y1) in itertools.pairwise(corners):
         length = math.hypot(x1 - x0, y1 - y0)
         heading = math.atan2(y1 - y0, x1 - x0)
         for k in range(int(length / STEP_M)):
@@ -213,7 +240,7 @@ def _add_people(ranges_m: np.ndarray, share: float, rng: np.random.Generator) ->
 def _odometry(T_map_robot: Sequence[Pose2], rng: np.random.Generator) -> list[Pose2]:
     """Increments of the true poses with 3 % and 0.01 rad per metre of noise."""
     T_odom_robot = [Pose2()]
-    for before, after in zip(T_map_robot, T_map_robot[1:], strict=False):
+    for before, after in itertools.pairwise(T_map_robot):
         step = before.inverse() * after
         driven_m = translation_distance(before, after)
         scale = 1.0 + float(rng.normal(0.0, 0.03))

@@ -16,7 +16,7 @@ from landfall.errors import Error
 try:
     from typer import TyperException as UsageProblem
 except ImportError:  # Typer before it brought its own Click
-    from click import ClickException as UsageProblem
+    from click import ClickException as UsageProblem  # type: ignore[assignment, no-redef]
 
 app = typer.Typer(
     help="Global relocalization from range scans and a known map.",

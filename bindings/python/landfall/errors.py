@@ -54,6 +54,5 @@ class TooLarge(Error, ValueError):
 
 
 by_code: dict[str, type[Error]] = {
-    kind.code: kind
-    for kind in (InvalidArgument, UnknownName, FileNotFound, FileFormat, FileWrite, TooLarge)
+    kind.code: kind for kind in (InvalidArgument, UnknownName, FileNotFound, FileFormat, FileWrite, TooLarge)
 }

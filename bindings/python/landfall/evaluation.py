@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from collections.abc import Collection, Sequence
@@ -154,7 +155,9 @@ def _quantiles(errors: Sequence[float]) -> dict[str, float | None]:
 def _verdicts(judged: Sequence[Judged], right: Sequence[bool]) -> dict:
     table: dict = {}
     for verdict in ("found", "ambiguous", "lost"):
-        flags = [ok for q, ok in zip(judged, right, strict=True) if q.estimate and q.estimate.verdict == verdict]
+        flags = [
+            ok for q, ok in zip(judged, right, strict=True) if q.estimate and q.estimate.verdict == verdict
+        ]
         table[verdict] = {"queries": len(flags), "right": sum(flags)}
     found = table["found"]
     table["found_that_are_right"] = _share(found["right"], found["queries"])
@@ -164,11 +167,13 @@ def _verdicts(judged: Sequence[Judged], right: Sequence[bool]) -> dict:
 
 def _precision_by_probability(judged: Sequence[Judged], right: Sequence[bool]) -> list[dict]:
     rows = []
-    for low, high in zip(PROBABILITY_BINS, PROBABILITY_BINS[1:], strict=False):
+    for low, high in itertools.pairwise(PROBABILITY_BINS):
         inside = [
             (q.estimate.probability, ok)
             for q, ok in zip(judged, right, strict=True)
-            if q.estimate and q.estimate.probability is not None and _in_bin(q.estimate.probability, low, high)
+            if q.estimate
+            and q.estimate.probability is not None
+            and _in_bin(q.estimate.probability, low, high)
         ]
         hits = sum(ok for _, ok in inside)
         rows.append(

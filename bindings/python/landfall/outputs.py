@@ -11,7 +11,7 @@ from landfall.errors import FileNotFound, FileWrite
 
 
 class ResultsFile:
-    """results.jsonl: lines go to NAME.part; leaving the `with` block renames it, after an error or a stop too."""
+    """results.jsonl: lines go to NAME.part; leaving the `with` block renames it, after an error too."""
 
     def __init__(self, path: Path | None) -> None:
         self.path = path

@@ -16,15 +16,19 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.transforms import Affine2D
 
-from landfall._landfall import GridMap, Hypothesis, Pose2, PreparedMap, Scan, SearchResult
+from landfall._landfall import GridMap, Pose2, PreparedMap, Scan, SearchResult
 from landfall.relocalization import Answers
 
-MAP_COLORS = ListedColormap(["#ffffff", "#20252b", "#d9dde1"])  # free, occupied, unknown
+UNKNOWN_COLOR = "#d9dde1"
+MAP_COLORS = ListedColormap(["#ffffff", "#20252b", UNKNOWN_COLOR])  # free, occupied, unknown
 BEST_COLOR = "#d7263d"
 RIVAL_COLORS = ("#1f77b4", "#e68a00", "#7b3fa0", "#2e8b57", "#8c564b")
 VERDICT_COLORS = {"found": "#1a9850", "ambiguous": "#f39c12", "lost": "#d7263d"}
-MAX_PIXELS = 1800
+DPI = 130
+HEIGHT_IN = 6.6  # of the panels of one answer
 CLOSE_UP_MARGIN_M = 1.5
+
+Box = tuple[float, float, float, float]  # x0, x1, y0, y1 in the map frame
 
 
 def draw_answer(maps: Sequence[PreparedMap], scan: Scan, result: SearchResult, path: Path) -> None:
@@ -32,49 +36,58 @@ def draw_answer(maps: Sequence[PreparedMap], scan: Scan, result: SearchResult, p
     best = result.hypotheses[0] if result.hypotheses else None
     map_index = best.map_index if best else 0
     grid = maps[map_index].grid
-    figure = Figure(figsize=(13.0, 6.8), layout="constrained")
-    whole, close = figure.subplots(1, 2)
-    for axes in (whole, close):
-        draw_map(axes, grid)
-    _frame_known(whole, grid)
+    box = known_box(grid)
+    ratio = min(max((box[1] - box[0]) / (box[3] - box[2]), 0.6), 1.9)
+    figure = Figure(figsize=(HEIGHT_IN * (ratio + 1.0) + 1.0, HEIGHT_IN + 1.2), layout="constrained")
+    whole, close = figure.subplots(1, 2, width_ratios=[ratio, 1.0])
+    figure.get_layout_engine().set(h_pad=0.12)  # type: ignore[union-attr, call-arg]
     figure.suptitle(_headline(result, maps), fontsize=13)
+    draw_map(whole, grid, box, HEIGHT_IN * ratio)
     if best is None:
         close.set_axis_off()
     else:
+        points = in_map(best.T_map_robot, scan.points_robot())
+        whole.scatter(points[:, 0], points[:, 1], s=2, color=BEST_COLOR, linewidths=0, zorder=3)
         _draw_hypotheses(whole, result, map_index)
-        _draw_close_up(close, scan, best)
+        _draw_close_up(close, grid, points, best.T_map_robot)
+        figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     _save(figure, path)
 
 
 def draw_trajectory(maps: Sequence[PreparedMap], answers: Answers, path: Path) -> None:
     """Every query's best pose, coloured by verdict, on each map that answers lie on."""
     used = sorted({i for i, pose in zip(answers.map_indices, answers.poses, strict=True) if pose}) or [0]
-    width, height = _figure_size(maps[used[0]].grid)
+    boxes = [known_box(maps[i].grid) for i in used]
+    width, height = _figure_size(boxes[0])
     figure = Figure(figsize=(width * len(used), height), layout="constrained")
-    for axes, map_index in zip(np.atleast_1d(figure.subplots(1, len(used))), used, strict=True):
-        grid = maps[map_index].grid
-        draw_map(axes, grid)
-        _frame_known(axes, grid)
+    for axes, map_index, box in zip(np.atleast_1d(figure.subplots(1, len(used))), used, boxes, strict=True):
+        draw_map(axes, maps[map_index].grid, box, width)
         _draw_verdicts(axes, answers, map_index)
         axes.set_title(maps[map_index].name)
     _save(figure, path)
 
 
-def draw_map(axes: Axes, grid: GridMap) -> None:
-    """The grid in metres of the map frame; a large one is thinned so that walls stay."""
-    cells = thin(grid.cells, math.ceil(max(grid.cells.shape) / MAX_PIXELS))
-    width_m = grid.width_cells * grid.resolution_m
-    height_m = grid.height_cells * grid.resolution_m
+def draw_map(axes: Axes, grid: GridMap, box: Box, width_in: float) -> None:
+    """The grid in metres of the map frame, framed to `box`; thinned to what the panel can show."""
+    pixels_per_cell = width_in * DPI / ((box[1] - box[0]) / grid.resolution_m)
+    cells = thin(grid.cells, math.ceil(1.0 / pixels_per_cell))
+    cell_m = grid.resolution_m * max(math.ceil(1.0 / pixels_per_cell), 1)
     image = axes.imshow(
-        cells, cmap=MAP_COLORS, vmin=0, vmax=2, origin="lower", extent=(0, width_m, 0, height_m),
+        cells,
+        cmap=MAP_COLORS,
+        vmin=0,
+        vmax=2,
+        origin="lower",
+        extent=(0, cells.shape[1] * cell_m, 0, cells.shape[0] * cell_m),
         interpolation="nearest",
     )
     origin = grid.T_map_grid
-    placed = Affine2D().rotate(origin.theta_rad).translate(origin.x_m, origin.y_m)
-    image.set_transform(placed + axes.transData)
-    axes.set_aspect("equal")
-    axes.set_xlabel("x [m]")
-    axes.set_ylabel("y [m]")
+    image.set_transform(
+        Affine2D().rotate(origin.theta_rad).translate(origin.x_m, origin.y_m) + axes.transData
+    )
+    axes.set(
+        xlim=box[:2], ylim=box[2:], aspect="equal", xlabel="x [m]", ylabel="y [m]", facecolor=UNKNOWN_COLOR
+    )
 
 
 def thin(cells: np.ndarray, factor: int) -> np.ndarray:
@@ -96,42 +109,34 @@ def in_map(T_map_robot: Pose2, points_robot: np.ndarray) -> np.ndarray:
     return points_robot @ np.array([[c, s], [-s, c]]) + (T_map_robot.x_m, T_map_robot.y_m)
 
 
-def _known_box(grid: GridMap) -> tuple[float, float, float, float]:
-    """x0, x1, y0, y1 of the cells that are not unknown, in the map frame, with a small margin."""
-    rows, cols = np.nonzero(grid.cells != 2)
+def known_box(grid: GridMap) -> Box:
+    """Around the cells that are not unknown, in the map frame, with a small margin."""
+    known = grid.cells != 2
+    rows, cols = np.flatnonzero(known.any(axis=1)), np.flatnonzero(known.any(axis=0))
     if rows.size == 0:
         rows, cols = np.array([0, grid.height_cells - 1]), np.array([0, grid.width_cells - 1])
-    x = np.array([cols.min(), cols.max() + 1]) * grid.resolution_m
-    y = np.array([rows.min(), rows.max() + 1]) * grid.resolution_m
-    corners = np.array([(x[i], y[j]) for i in (0, 1) for j in (0, 1)])
-    corners = in_map(grid.T_map_grid, corners)
+    x = np.array([cols[0], cols[-1] + 1]) * grid.resolution_m
+    y = np.array([rows[0], rows[-1] + 1]) * grid.resolution_m
+    corners = in_map(grid.T_map_grid, np.array([(x[i], y[j]) for i in (0, 1) for j in (0, 1)]))
     margin = 0.02 * float(np.ptp(corners, axis=0).max())
     (x0, y0), (x1, y1) = corners.min(axis=0) - margin, corners.max(axis=0) + margin
     return float(x0), float(x1), float(y0), float(y1)
 
 
-def _frame_known(axes: Axes, grid: GridMap) -> None:
-    x0, x1, y0, y1 = _known_box(grid)
-    axes.set_xlim(x0, x1)
-    axes.set_ylim(y0, y1)
-
-
-def _figure_size(grid: GridMap) -> tuple[float, float]:
-    """Inches: the map's shape, its longer side 11."""
-    x0, x1, y0, y1 = _known_box(grid)
-    scale = 11.0 / max(x1 - x0, y1 - y0)
-    return max((x1 - x0) * scale, 5.0), max((y1 - y0) * scale, 4.0) + 0.6
+def _figure_size(box: Box) -> tuple[float, float]:
+    """Inches: the box's shape, its longer side 11."""
+    scale = 11.0 / max(box[1] - box[0], box[3] - box[2])
+    return max((box[1] - box[0]) * scale, 5.0), max((box[3] - box[2]) * scale, 4.0) + 0.6
 
 
 def _draw_hypotheses(axes: Axes, result: SearchResult, map_index: int) -> None:
     """Arrows with rank and probability; the best on top."""
-    ranked = [(k, h) for k, h in enumerate(result.hypotheses) if h.map_index == map_index]
-    for rank, hypothesis in reversed(ranked):
+    for rank, hypothesis in enumerate(result.hypotheses):
+        if hypothesis.map_index != map_index:
+            continue
         color = BEST_COLOR if rank == 0 else RIVAL_COLORS[(rank - 1) % len(RIVAL_COLORS)]
         label = f"{rank + 1}: p {hypothesis.probability:.3f}, explained {hypothesis.explained:.2f}"
         _draw_robot(axes, hypothesis.T_map_robot, color, _arrow_length_m(axes), label, zorder=10 - rank)
-    handles, labels = axes.get_legend_handles_labels()
-    axes.legend(handles[::-1], labels[::-1], loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=2, fontsize=9)
 
 
 def _arrow_length_m(axes: Axes) -> float:
@@ -145,21 +150,22 @@ def _draw_robot(
     axes.scatter([T_map_robot.x_m], [T_map_robot.y_m], s=36, color=color, zorder=zorder, label=label)
     tip = in_map(T_map_robot, np.array([[length_m, 0.0]]))[0]
     axes.annotate(
-        "", xy=tip, xytext=(T_map_robot.x_m, T_map_robot.y_m), zorder=zorder,
+        "",
+        xy=tip,
+        xytext=(T_map_robot.x_m, T_map_robot.y_m),
+        zorder=zorder,
         arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 2.2, "shrinkA": 0, "shrinkB": 0},
     )
 
 
-def _draw_close_up(axes: Axes, scan: Scan, best: Hypothesis) -> None:
+def _draw_close_up(axes: Axes, grid: GridMap, points: np.ndarray, T_map_robot: Pose2) -> None:
     """The echoes at the best pose, over the walls that should explain them."""
-    points = in_map(best.T_map_robot, scan.points_robot())
+    framed = np.vstack([points, [(T_map_robot.x_m, T_map_robot.y_m)]])
+    low, high = np.percentile(framed, [2, 98], axis=0)
+    (x, y), half = (low + high) / 2, max(float((high - low).max()) / 2 + CLOSE_UP_MARGIN_M, 3.0)
+    draw_map(axes, grid, (x - half, x + half, y - half, y + half), HEIGHT_IN)
     axes.scatter(points[:, 0], points[:, 1], s=7, color=BEST_COLOR, linewidths=0, zorder=3, label="echoes")
-    framed = np.vstack([points, [(best.T_map_robot.x_m, best.T_map_robot.y_m)]])
-    low, high = np.percentile(framed, [1, 99], axis=0)
-    center, half = (low + high) / 2, max(float((high - low).max()) / 2 + CLOSE_UP_MARGIN_M, 3.0)
-    axes.set_xlim(center[0] - half, center[0] + half)
-    axes.set_ylim(center[1] - half, center[1] + half)
-    _draw_robot(axes, best.T_map_robot, "#0b5fa5", 0.12 * half, "robot", zorder=5)
+    _draw_robot(axes, T_map_robot, "#0b5fa5", 0.12 * half, "robot", zorder=5)
     axes.legend(loc="upper right", fontsize=9)
     axes.set_title(f"{len(points)} echoes at the best pose", fontsize=10)
 
@@ -190,16 +196,28 @@ def _draw_verdicts(axes: Axes, answers: Answers, map_index: int) -> None:
             continue
         xyt = np.array(poses)
         axes.quiver(
-            xyt[:, 0], xyt[:, 1], tick_m * np.cos(xyt[:, 2]), tick_m * np.sin(xyt[:, 2]), color=color,
-            angles="xy", scale_units="xy", scale=1, width=0.0015, headwidth=0, headlength=0, headaxislength=0,
+            xyt[:, 0],
+            xyt[:, 1],
+            tick_m * np.cos(xyt[:, 2]),
+            tick_m * np.sin(xyt[:, 2]),
+            color=color,
+            angles="xy",
+            scale_units="xy",
+            scale=1,
+            width=0.002,
+            headwidth=0,
+            headlength=0,
+            headaxislength=0,
         )
-        axes.scatter(xyt[:, 0], xyt[:, 1], s=9, color=color, linewidths=0, label=f"{verdict}: {len(poses)}", zorder=3)
+        axes.scatter(
+            xyt[:, 0], xyt[:, 1], s=14, color=color, linewidths=0, label=f"{verdict}: {len(poses)}", zorder=3
+        )
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="upper right", fontsize=9)
+        axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
 
 
 def _save(figure: Figure, path: Path) -> None:
     """PNG, or what the ending says, under a temporary name first."""
     part = path.with_name(f".{path.stem}.part{path.suffix or '.png'}")
-    figure.savefig(part, dpi=130, facecolor="white")
+    figure.savefig(part, dpi=DPI, facecolor="white")
     part.replace(path)

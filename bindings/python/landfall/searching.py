@@ -55,7 +55,7 @@ def search(
     map: Map | Sequence[Map], prior: Prior | Sequence[Prior], scans: Scan, **options: Unpack[SearchKeywords]
 ) -> SearchResult: ...
 @overload
-def search(
+def search(  # type: ignore[overload-cannot-match]
     map: Map | Sequence[Map],
     prior: Prior | Sequence[Prior],
     scans: Sequence[Scan],

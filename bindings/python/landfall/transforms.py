@@ -63,7 +63,7 @@ class StampedPoses:
         return Mount(translation, rotation_matrix(quaternion))
 
     def at(self, stamp_s: float) -> Pose2 | None:
-        """Linear between neighbours; the end's own value up to MAX_GAP_S beyond an end. One entry is static."""
+        """Linear between neighbours; the end's own value up to MAX_GAP_S beyond; one entry is static."""
         if not self.entries:
             return None
         if len(self.entries) == 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -71,7 +72,7 @@ def path_length_m(scans: Sequence[Scan]) -> float:
     poses = [scan.T_odom_robot for scan in scans]
     if any(pose is None for pose in poses):
         raise InvalidArgument("windows with motion need odometry, which this log does not have")
-    return math.fsum(translation_distance(a, b) for a, b in zip(poses, poses[1:], strict=False))
+    return math.fsum(translation_distance(a, b) for a, b in itertools.pairwise(poses))
 
 
 def _spread(first: int, last: int, max_scans: int) -> list[int]:

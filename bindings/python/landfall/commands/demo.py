@@ -43,8 +43,9 @@ def run(
     """Makes a building and a noisy log, relocalizes it from nothing, prints the table, writes pictures."""
     folder = make_folder(out)
     map, scans = _make(folder, seed)
-    print(f"a building of {map.grid.width_cells} x {map.grid.height_cells} cells, a drive of {len(scans)} scans;")
-    print("each scan alone, anywhere, any heading; one beam in ten hits somebody the map does not know:")
+    size = f"{map.grid.width_cells} x {map.grid.height_cells} cells"
+    print(f"a building of {size}, a drive of {len(scans)} scans; each scan alone, anywhere, any heading;")
+    print("one beam in ten hits somebody whom the map does not know:")
     answers, stopped = _relocalize(map, scans, threads, folder)
     _print_success(folder)
     _draw(map, scans, answers, folder)
@@ -60,7 +61,9 @@ def _make(folder: Path, seed: int) -> tuple[PreparedMap, list[Scan]]:
     truth = drawn.drive(building, seed)
     scans = drawn.record(PreparedMap(walls), truth, seed)
     save_grid_map(grid, folder / "map.yaml")
-    save_trajectory([(scan.stamp_s, pose) for scan, pose in zip(scans, truth, strict=True)], folder / "truth.tum")
+    save_trajectory(
+        [(scan.stamp_s, pose) for scan, pose in zip(scans, truth, strict=True)], folder / "truth.tum"
+    )
     for scan in scans:
         scan.T_map_robot = None  # the log holds what a robot would have
     save_log(scans, folder / "drive.jsonl")

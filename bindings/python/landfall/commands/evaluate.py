@@ -30,8 +30,8 @@ def run(
 ) -> None:
     """Success rate and errors; with results.jsonl also whether verdicts and probabilities are honest.
 
-    All queries count, and no hypothesis is a failure. Queries are the lines of results.jsonl that truth knows;
-    for a TUM file, which has no line where nothing was found, they are the lines of the truth.
+    All queries count, and no hypothesis is a failure. Queries are the lines of results.jsonl that truth
+    knows; for a TUM file, which has no line where nothing was found, they are the lines of the truth.
     """
     estimates, estimates_are_queries = load_estimates(estimate)
     judged = judge(
@@ -89,8 +89,14 @@ def _print_verdicts(verdicts: dict) -> None:
 
 def _print_probabilities(bins: list[dict]) -> None:
     rows = [
-        (f"{row['from']:g} to {row['to']:g}", str(row["queries"]), str(row["right"]), _percent(row["precision"]))
+        (
+            f"{row['from']:g} to {row['to']:g}",
+            str(row["queries"]),
+            str(row["right"]),
+            _percent(row["precision"]),
+        )
         for row in bins
+        if row["queries"]
     ]
     print_table(rows, ("probability", "queries", "right", "precision"))
 

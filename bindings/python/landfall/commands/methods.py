@@ -18,8 +18,8 @@ def run(
     """The search methods, and the instruction set that the kernels run with."""
     rows = methods()
     if as_json:
-        table = [{"name": n, "summary": s, "source": source} for n, s, source in rows]
-        print(json.dumps({"isa": active_isa(), "methods": table}))
+        found = [dict(zip(("name", "summary", "source"), row, strict=True)) for row in rows]
+        print(json.dumps({"isa": active_isa(), "methods": found}))
         return
     table = Table()
     for column in ("method", "what it is", "source"):

@@ -7,7 +7,16 @@ from typing import Annotated
 
 import typer
 
-from landfall._landfall import Anywhere, Log, PosePrior, PreparedMap, Sensor, load_map, load_prior, load_sensors
+from landfall._landfall import (
+    Anywhere,
+    Log,
+    PosePrior,
+    PreparedMap,
+    Sensor,
+    load_map,
+    load_prior,
+    load_sensors,
+)
 from landfall.errors import InvalidArgument, UnknownName
 from landfall.logs import load_log
 
@@ -16,7 +25,8 @@ Maps = Annotated[
 ]
 OneMap = Annotated[Path, typer.Option("--map", help="ROS map .yaml or wall plan .json.")]
 LogFile = Annotated[
-    Path, typer.Option("--log", help="CARMEN text (also gzipped), scan lines .jsonl, ROS 1 .bag, sonar table.")
+    Path,
+    typer.Option("--log", help="CARMEN text (also gzipped), scan lines .jsonl, ROS 1 .bag, sonar table."),
 ]
 SensorFile = Annotated[
     Path | None, typer.Option("--sensor", help="Sensor .yaml that replaces the log's own, by name.")
@@ -53,7 +63,7 @@ def read_prior(text: str) -> PosePrior:
 
 
 def read_log(path: Path, sensor_file: Path | None = None) -> Log:
-    """The log, its sensors replaced by the file's of the same names. Raises UnknownName where none matches."""
+    """The log, its sensors replaced by the file's of the same names; none matching raises UnknownName."""
     if sensor_file is None:
         return load_log(path)
     sensors = load_sensors(sensor_file)

@@ -11,8 +11,8 @@ import typer
 from landfall._landfall import Log, Scan, consistent
 from landfall.commands.options import (
     LogFile,
-    MaxHypotheses,
     Maps,
+    MaxHypotheses,
     Method,
     PriorText,
     RobotRadius,
@@ -40,7 +40,9 @@ def run(
     map: Maps,
     log: LogFile,
     out: Annotated[Path | None, typer.Option("--out", help="TUM trajectory of the best poses.")] = None,
-    results: Annotated[Path | None, typer.Option("--results", help="results.jsonl: a line per query.")] = None,
+    results: Annotated[
+        Path | None, typer.Option("--results", help="results.jsonl: a line per query.")
+    ] = None,
     picture: Annotated[Path | None, typer.Option("--picture", help="Draw all best poses here.")] = None,
     pictures: Annotated[int, typer.Option("--pictures", help="Draw so many single answers.")] = 0,
     pictures_dir: Annotated[
@@ -53,17 +55,22 @@ def run(
     window_scans: Annotated[
         int | None, typer.Option("--window-scans", min=1, help="Ask windows of n scans, aligned and merged.")
     ] = None,
-    window_s: Annotated[float | None, typer.Option("--window-s", help="Ask windows of so many seconds.")] = None,
+    window_s: Annotated[
+        float | None, typer.Option("--window-s", help="Ask windows of so many seconds.")
+    ] = None,
     window_max_scans: Annotated[
         int, typer.Option("--window-max-scans", min=0, help="Evenly spread scans of a window; 0: all.")
     ] = 0,
     disjoint: Annotated[bool, typer.Option("--disjoint", help="Windows one after the other.")] = False,
-    min_motion_m: Annotated[float, typer.Option("--min-motion-m", help="Leave out windows that moved less.")] = 0.0,
+    min_motion_m: Annotated[
+        float, typer.Option("--min-motion-m", help="Leave out windows that moved less.")
+    ] = 0.0,
     consistent: Annotated[
         bool, typer.Option("--consistent", help="Choose among hypotheses by odometry over the whole log.")
     ] = False,
     one_at_a_time: Annotated[
-        bool, typer.Option("--one-at-a-time", help="All threads for each scan (latency), not one (throughput).")
+        bool,
+        typer.Option("--one-at-a-time", help="All threads for each scan (latency), not one (throughput)."),
     ] = False,
     sensor: SensorFile = None,
     threads: Threads = 0,

@@ -10,8 +10,8 @@ import typer
 
 from landfall._landfall import Scan, search_batch
 from landfall.commands.options import (
-    MaxHypotheses,
     Maps,
+    MaxHypotheses,
     Method,
     PriorText,
     RobotRadius,

@@ -30,7 +30,9 @@ def run(
     if not trajectory:
         raise InvalidArgument(f"{poses}: no poses to simulate from")
     T_map_robot = [pose for _, pose in trajectory]
-    scans = simulate(load_map(map), one_sensor(sensor, sensor_name), T_map_robot, noise=not no_noise, seed=seed)
+    scans = simulate(
+        load_map(map), one_sensor(sensor, sensor_name), T_map_robot, noise=not no_noise, seed=seed
+    )
     for scan, (stamp_s, _) in zip(scans, trajectory, strict=True):
         scan.stamp_s = stamp_s
     save_log(scans, out)

@@ -1,0 +1,7 @@
+"""python -m landfall: the `landfall` command."""
+
+import sys
+
+from landfall.cli import main
+
+sys.exit(main())
