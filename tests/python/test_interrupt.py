@@ -1,0 +1,45 @@
+"""Ctrl-C and SIGTERM: what is finished is on disk, whole."""
+
+from __future__ import annotations
+
+import json
+import signal
+import time
+
+import landfall
+import pytest
+from conftest import landfall_process
+
+
+@pytest.mark.parametrize("signal_number", [signal.SIGINT, signal.SIGTERM])
+def test_stop_leaves_whole_files(files, scans, signal_number):
+    many = [scan for _ in range(400) for scan in scans]
+    for k, scan in enumerate(many):
+        scan.stamp_s = float(k)
+    landfall.save_log(many, files.log)
+    results, out = files.folder / "r.jsonl", files.folder / "p.tum"
+    process = landfall_process(
+        "relocalize", "--map", files.map, "--log", files.log, "--results", results, "--out", out,
+        "--method", "exhaustive", cwd=files.folder,
+    )  # fmt: skip
+    part = results.with_name("r.jsonl.part")
+    wait_until(lambda: part.exists() and part.read_text().count("\n") >= 2, process)
+    process.send_signal(signal_number)
+    _, err = process.communicate(timeout=30)
+
+    assert process.returncode == 128 + signal_number
+    assert "stopped after" in err and "Traceback" not in err
+    lines = [json.loads(line) for line in results.read_text().splitlines()]
+    assert 2 <= len(lines) < len(many)
+    assert [line["index"] for line in lines] == list(range(len(lines)))
+    answered = sum(bool(line["hypotheses"]) for line in lines)
+    assert len(landfall.load_trajectory(out)) == answered
+    assert not part.exists()
+
+
+def wait_until(condition, process, limit_s=30.0):
+    until = time.monotonic() + limit_s
+    while not condition():
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < until
+        time.sleep(0.02)
