@@ -1,5 +1,6 @@
 #include "landfall/grid_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -22,6 +23,10 @@ void validate(const GridMap& map) {
   if (map.width_cells <= 0 || map.height_cells <= 0)
     fail(ErrorCode::invalid_argument, "size is " + std::to_string(map.width_cells) + " x " +
                                           std::to_string(map.height_cells) + " cells, expected at least 1 x 1");
+  if (std::max(map.width_cells, map.height_cells) > max_map_side_cells)
+    fail(ErrorCode::too_large, "size is " + std::to_string(map.width_cells) + " x " +
+                                   std::to_string(map.height_cells) + " cells, at most " +
+                                   std::to_string(max_map_side_cells) + " a side are taken");
   const std::int64_t cells = std::int64_t{map.width_cells} * map.height_cells;
   if (cells > max_map_cells)
     fail(ErrorCode::too_large, "size is " + std::to_string(cells) + " cells, at most " +

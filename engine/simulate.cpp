@@ -43,6 +43,7 @@ std::vector<float> simulate_ranges(const PreparedMap& map, const Sensor& sensor,
   const raycast::Scene& scene = map.state().scene();
   const std::vector<raycast::Beam> beams = internal::to_raycast(sensor);
   std::vector<raycast::Pose> poses;
+  poses.reserve(T_map_robot.size());
   for (const Pose2& pose : T_map_robot) poses.push_back(internal::to_raycast(pose));
   std::vector<float> ranges_m(poses.size() * beams.size());
   const std::size_t tasks = (poses.size() + poses_per_task - 1) / poses_per_task;

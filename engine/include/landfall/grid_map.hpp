@@ -43,8 +43,9 @@ struct GridMap {
   friend bool operator==(const GridMap&, const GridMap&) = default;
 };
 
-// Most cells a map may have (2^31): coordinates, and products with 12 bytes a cell, stay exact.
-inline constexpr std::int64_t max_map_cells = std::int64_t{1} << 31;
+// The largest map taken: indices into every derived table then fit into 32 bits, and distances into 16.
+inline constexpr std::int64_t max_map_cells = std::int64_t{1} << 30;
+inline constexpr int max_map_side_cells = 65'000;
 
 // Throws Error{invalid_argument or too_large}: empty or oversized grid, a resolution that is not
 // positive and finite, an origin that is not finite, a number of cells other than width x height.

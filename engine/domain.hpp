@@ -1,0 +1,39 @@
+// A prior on the lattice: which poses may be scored, and how much each weighs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/block_mask.hpp"
+#include "engine/lattice.hpp"
+#include "landfall/prior.hpp"
+
+namespace landfall::internal {
+
+using SharedMask = std::shared_ptr<const BlockMask>;
+
+// One component of the prior (a plain prior has one). Headings without poses have a null mask.
+struct DomainComponent {
+  std::vector<SharedMask> mask_of_heading;
+  double weight = 1.0;      // normalised over the components
+  double normaliser = 0.0;  // sum of `density` over the component's poses
+  Gaussian gaussian;        // density exp(-mahalanobis^2 / 2) where `is_gaussian`, else 1
+  bool is_gaussian = false;
+};
+
+struct Domain {
+  std::vector<SharedMask> mask_of_heading;  // union of the components'
+  std::vector<DomainComponent> components;
+  std::int64_t poses = 0;  // lattice poses, after the free-space mask
+  bool on_map = false;     // the prior's support touches the map, free or not
+
+  [[nodiscard]] bool contains(const LatticePose& pose) const;
+  // Prior probability of a pose of the domain, natural logarithm. They sum to 1.
+  [[nodiscard]] double log_prior(const Lattice& lattice, const LatticePose& pose) const;
+};
+
+// `free` holds the possible cells of the whole map (on the lattice's step).
+Domain make_domain(const PosePrior& prior, const Lattice& lattice, const SharedMask& free);
+
+}  // namespace landfall::internal

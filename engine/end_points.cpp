@@ -1,0 +1,54 @@
+#include "engine/end_points.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "kernels/end_points.hpp"
+
+namespace landfall::internal {
+namespace {
+
+// A stride near n / golden ratio that is coprime to n visits all of 0..n-1, neighbours far apart.
+std::size_t scattering_stride(std::size_t count) {
+  auto stride = static_cast<std::size_t>(static_cast<double>(count) * 0.6180339887);
+  if (stride == 0) stride = 1;
+  while (std::gcd(stride, count) != 1) ++stride;
+  return stride;
+}
+
+}  // namespace
+
+EndPoints make_end_points(const Scan& scan, double resolution_m) {
+  // Farther than any map is wide: such a point scores nothing anywhere.
+  constexpr double farthest_cells = 1 << 20;
+  EndPoints in_order;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const Beam& beam = scan.sensor->beams[i];
+    if (classify(beam, scan.ranges_m[i]) != Reading::echo) continue;
+    const Point2 p_robot = beam.T_robot_beam * Point2{scan.ranges_m[i], 0.0};
+    const double x = p_robot.x_m / resolution_m;
+    const double y = p_robot.y_m / resolution_m;
+    if (std::abs(x) > farthest_cells || std::abs(y) > farthest_cells) continue;
+    in_order.x_cells.push_back(x);
+    in_order.y_cells.push_back(y);
+  }
+  const std::size_t count = in_order.size();
+  EndPoints points;
+  if (count == 0) return points;
+  const std::size_t stride = scattering_stride(count);
+  for (std::size_t i = 0, at = 0; i < count; ++i, at = (at + stride) % count) {
+    points.x_cells.push_back(in_order.x_cells[at]);
+    points.y_cells.push_back(in_order.y_cells[at]);
+  }
+  return points;
+}
+
+void cells_at_heading(const EndPoints& points, const Lattice& lattice, int heading, HeadingCells& cells) {
+  cells.col.resize(points.size());
+  cells.row.resize(points.size());
+  const double heading_rad = lattice.heading_grid_rad(heading);
+  kernels::end_point_cells(points.x_cells.data(), points.y_cells.data(), points.size(), std::cos(heading_rad),
+                           std::sin(heading_rad), cells.col.data(), cells.row.data());
+}
+
+}  // namespace landfall::internal

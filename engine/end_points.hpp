@@ -1,0 +1,30 @@
+// A scan as the field methods see it: the end points of its echoes, in cells.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/lattice.hpp"
+#include "landfall/scan.hpp"
+
+namespace landfall::internal {
+
+// In the robot's frame. The order is shuffled (the same way for equal numbers), so that any first few
+// stand for all.
+struct EndPoints {
+  std::vector<double> x_cells;
+  std::vector<double> y_cells;
+
+  [[nodiscard]] std::size_t size() const { return x_cells.size(); }
+};
+
+EndPoints make_end_points(const Scan& scan, double resolution_m);
+
+// Offsets from the robot's cell to each end point's cell at lattice heading k.
+struct HeadingCells {
+  std::vector<std::int32_t> col;
+  std::vector<std::int32_t> row;
+};
+void cells_at_heading(const EndPoints& points, const Lattice& lattice, int heading, HeadingCells& cells);
+
+}  // namespace landfall::internal

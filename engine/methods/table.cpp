@@ -1,0 +1,37 @@
+#include "engine/methods/table.hpp"
+
+#include <array>
+#include <string>
+
+#include "landfall/error.hpp"
+
+namespace landfall::internal {
+namespace {
+
+constexpr std::string_view default_method = "branch_and_bound";
+
+constexpr std::array<Method, 2> table{{
+    {.info = {.name = "exhaustive", .summary = "scores every pose of the prior's lattice; the oracle", .source = ""},
+     .propose = propose_exhaustive},
+    {.info = {.name = "branch_and_bound",
+              .summary = "the same optimum, proven, by admissible bounds over x, y and heading; the default",
+              .source = "Olson 2009, 2015; Hess et al. 2016"},
+     .propose = propose_branch_and_bound},
+}};
+
+}  // namespace
+
+std::span<const Method> method_table() { return table; }
+
+const Method& find_method(std::string_view name) {
+  const std::string_view wanted = name == "auto" ? default_method : name;
+  std::string known = "auto";
+  for (const Method& method : table) {
+    if (method.info.name == wanted) return method;
+    known += ", " + std::string(method.info.name);
+  }
+  throw Error(ErrorCode::unknown_name,
+              "option method is \"" + std::string(name) + "\", expected one of " + known);
+}
+
+}  // namespace landfall::internal

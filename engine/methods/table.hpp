@@ -1,0 +1,23 @@
+// The search methods: one file and one row each.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "engine/query.hpp"
+
+namespace landfall::internal {
+
+struct Method {
+  MethodInfo info;
+  Proposal (*propose)(const Query& query);
+};
+
+std::span<const Method> method_table();
+// "auto" is resolved here. Throws Error{unknown_name} that lists the names.
+const Method& find_method(std::string_view name);
+
+Proposal propose_exhaustive(const Query& query);
+Proposal propose_branch_and_bound(const Query& query);
+
+}  // namespace landfall::internal

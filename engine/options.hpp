@@ -1,0 +1,11 @@
+#pragma once
+
+#include "landfall/search.hpp"
+
+namespace landfall::internal {
+
+// Throws Error{invalid_argument} that names the option, the value and what is accepted. Steps are
+// checked against the map where the lattice is made, the method's name where it is looked up.
+void validate(const SearchOptions& options);
+
+}  // namespace landfall::internal

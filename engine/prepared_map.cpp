@@ -1,0 +1,111 @@
+#include "landfall/prepared_map.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "engine/distance_field.hpp"
+#include "engine/prepared_state.hpp"
+#include "engine/to_raycast.hpp"
+#include "landfall/error.hpp"
+#include "landfall/search.hpp"
+
+namespace landfall {
+namespace internal {
+
+PreparedState::PreparedState(GridMap grid, std::optional<WallMap> walls, PrepareOptions options)
+    : grid_(std::move(grid)), options_(std::move(options)), plan_(std::move(walls)) {
+  validate(grid_);
+  if (!(options_.field_sigma_m > 0.0) || !std::isfinite(options_.field_sigma_m))
+    throw Error(ErrorCode::invalid_argument, "option field_sigma_m is " + std::to_string(options_.field_sigma_m) +
+                                                 ", expected a positive number");
+}
+
+const std::vector<std::int32_t>& PreparedState::squared_distance_cells() const {
+  return squared_distance_cells_.get([this] {
+    std::vector<std::uint8_t> occupied;
+    occupied.reserve(grid_.cells.size());
+    for (const Occupancy cell : grid_.cells) occupied.push_back(cell == Occupancy::occupied ? 1 : 0);
+    return squared_distances(occupied, grid_.width_cells, grid_.height_cells);
+  });
+}
+
+const std::vector<std::uint8_t>& PreparedState::field() const {
+  return field_.get([this] { return likelihood_field(grid_, options_.field_sigma_m); });
+}
+
+const SearchTables& PreparedState::tables() const {
+  return tables_.get([this] { return make_search_tables(field(), grid_.width_cells, grid_.height_cells); });
+}
+
+const WallMap& PreparedState::walls() const {
+  return plan_ ? *plan_ : walls_.get([this] { return to_walls(grid_); });
+}
+
+const raycast::Scene& PreparedState::scene() const {
+  return scene_.get([this] { return raycast::Scene(to_raycast(walls())); });
+}
+
+std::shared_ptr<const BlockMask> PreparedState::free_mask(double robot_radius_m, int step_cells) const {
+  const std::scoped_lock lock(masks_mutex_);
+  std::shared_ptr<const BlockMask>& mask = masks_[{robot_radius_m, step_cells}];
+  if (mask != nullptr) return mask;
+  std::vector<std::int32_t> clearance;  // squared distance to the nearest cell that is not free
+  const double radius_cells = robot_radius_m / grid_.resolution_m;
+  if (robot_radius_m > 0.0) {
+    std::vector<std::uint8_t> blocked;
+    blocked.reserve(grid_.cells.size());
+    for (const Occupancy cell : grid_.cells) blocked.push_back(cell == Occupancy::free ? 0 : 1);
+    clearance = squared_distances(blocked, grid_.width_cells, grid_.height_cells);
+  }
+  BlockMask cells = make_block_mask(0, 0, grid_.width_cells - 1, grid_.height_cells - 1);
+  for (int row = 0; row < grid_.height_cells; row += step_cells) {
+    for (int col = 0; col < grid_.width_cells; col += step_cells) {
+      const std::size_t i = grid_.index({col, row});
+      if (grid_.cells[i] != Occupancy::free) continue;
+      if (!clearance.empty() && std::sqrt(static_cast<double>(clearance[i])) <= radius_cells) continue;
+      cells.insert(col, row);
+    }
+  }
+  mask = std::make_shared<const BlockMask>(std::move(cells));
+  return mask;
+}
+
+std::size_t PreparedState::memory_bytes() const {
+  std::size_t bytes = grid_.cells.capacity();
+  if (const auto* distances = squared_distance_cells_.if_built()) bytes += 4 * distances->capacity();
+  if (const auto* field = field_.if_built()) bytes += field->capacity();
+  if (const auto* tables = tables_.if_built()) bytes += tables->memory_bytes();
+  if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
+  if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
+  if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();
+  const std::scoped_lock lock(masks_mutex_);
+  for (const auto& [key, mask] : masks_) bytes += 8 * mask->words.capacity();
+  return bytes;
+}
+
+}  // namespace internal
+
+PreparedMap::PreparedMap(GridMap map, PrepareOptions options)
+    : state_(std::make_shared<internal::PreparedState>(std::move(map), std::nullopt, std::move(options))) {}
+
+PreparedMap::PreparedMap(WallMap walls, GridFromWallsOptions grid, PrepareOptions options) {
+  validate(walls);
+  GridMap cells = to_grid(walls, grid);
+  state_ = std::make_shared<internal::PreparedState>(std::move(cells), std::move(walls), std::move(options));
+}
+
+const GridMap& PreparedMap::grid() const { return state_->grid(); }
+const PrepareOptions& PreparedMap::options() const { return state_->options(); }
+std::span<const std::int32_t> PreparedMap::squared_distance_cells() const { return state_->squared_distance_cells(); }
+std::span<const std::uint8_t> PreparedMap::field() const { return state_->field(); }
+const WallMap& PreparedMap::walls() const { return state_->walls(); }
+std::size_t PreparedMap::memory_bytes() const { return state_->memory_bytes(); }
+
+void PreparedMap::prepare() const {
+  (void)active_isa();
+  (void)state_->tables();
+  (void)state_->scene();
+  (void)state_->free_mask(0.0, 1);
+}
+
+}  // namespace landfall

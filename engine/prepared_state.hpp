@@ -1,0 +1,67 @@
+// What a PreparedMap holds: parts that are built on first need, each once.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "engine/block_mask.hpp"
+#include "engine/search_tables.hpp"
+#include "landfall/prepared_map.hpp"
+#include "raycast/scene.hpp"
+
+namespace landfall::internal {
+
+// Built by the first caller; everyone else waits for it or finds it there.
+template <class T>
+class Lazy {
+ public:
+  template <class Build>
+  const T& get(const Build& build) const {
+    std::call_once(once_, [&] {
+      value_.emplace(build());
+      built_.store(true, std::memory_order_release);
+    });
+    return *value_;
+  }
+  [[nodiscard]] const T* if_built() const { return built_.load(std::memory_order_acquire) ? &*value_ : nullptr; }
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::optional<T> value_;
+  mutable std::atomic<bool> built_{false};
+};
+
+class PreparedState {
+ public:
+  PreparedState(GridMap grid, std::optional<WallMap> walls, PrepareOptions options);
+
+  [[nodiscard]] const GridMap& grid() const { return grid_; }
+  [[nodiscard]] const PrepareOptions& options() const { return options_; }
+  [[nodiscard]] const std::vector<std::int32_t>& squared_distance_cells() const;
+  [[nodiscard]] const std::vector<std::uint8_t>& field() const;
+  [[nodiscard]] const SearchTables& tables() const;
+  [[nodiscard]] const WallMap& walls() const;
+  // Walls in the map frame, ready for rays.
+  [[nodiscard]] const raycast::Scene& scene() const;
+  // Cells where a robot of this radius may stand, on every step_cells-th column and row.
+  [[nodiscard]] std::shared_ptr<const BlockMask> free_mask(double robot_radius_m, int step_cells) const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  GridMap grid_;
+  PrepareOptions options_;
+  std::optional<WallMap> plan_;
+  Lazy<std::vector<std::int32_t>> squared_distance_cells_;
+  Lazy<std::vector<std::uint8_t>> field_;
+  Lazy<SearchTables> tables_;
+  Lazy<WallMap> walls_;
+  Lazy<raycast::Scene> scene_;
+  mutable std::mutex masks_mutex_;
+  mutable std::map<std::pair<double, int>, std::shared_ptr<const BlockMask>> masks_;
+};
+
+}  // namespace landfall::internal

@@ -1,0 +1,62 @@
+// What a search method is asked, and what it answers.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/domain.hpp"
+#include "engine/end_points.hpp"
+#include "engine/lattice.hpp"
+#include "engine/prepared_state.hpp"
+#include "landfall/search.hpp"
+
+namespace landfall::internal {
+
+using Clock = std::chrono::steady_clock;
+
+struct Query {
+  const PreparedState& map;
+  const Scan& scan;
+  const EndPoints& points;
+  const Lattice& lattice;
+  const Domain& domain;
+  const SearchOptions& options;
+  int threads = 1;
+  std::optional<Clock::time_point> deadline;
+
+  [[nodiscard]] bool out_of_time() const { return deadline && Clock::now() >= *deadline; }
+};
+
+struct Candidate {
+  LatticePose pose;
+  std::int32_t score = 0;
+};
+
+// Better score first; equal ones by heading, row, column.
+inline bool better(const Candidate& a, const Candidate& b) {
+  return a.score != b.score ? a.score > b.score : a.pose < b.pose;
+}
+
+struct Proposal {
+  // The best pose of every block of 8 x 8 cells at every heading whose score is at least
+  // lowest_rival(best score), best first: at most max_candidates. Empty: nothing scores.
+  std::vector<Candidate> candidates;
+  bool proven = false;
+  SearchCounts counts;
+};
+
+inline constexpr std::size_t max_candidates = std::size_t{1} << 16;
+
+// Poses that score less than this beside the best one cannot take a share of the probability that
+// matters; methods need not look for them. At least 1. See evidence.hpp for what a score is worth.
+std::int32_t lowest_rival(std::int32_t best_score, std::size_t points);
+
+// Drops what lies below lowest_rival(best), sorts, cuts to max_candidates.
+void keep_rivals(std::vector<Candidate>& candidates, std::size_t points);
+
+// The best allowed pose of a block; score 0 where none scores.
+Candidate best_of_block(const std::int32_t* scores, std::uint64_t allowed, int heading, int block_row, int block_col);
+
+}  // namespace landfall::internal

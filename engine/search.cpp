@@ -1,0 +1,212 @@
+// The pipeline on one screen: propose, refine, verify, rank.
+#include "landfall/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/methods/table.hpp"
+#include "engine/options.hpp"
+#include "engine/parallel.hpp"
+#include "engine/rank.hpp"
+#include "engine/refine.hpp"
+#include "engine/verify.hpp"
+#include "kernels/isa.hpp"
+#include "landfall/error.hpp"
+
+namespace landfall {
+namespace internal {
+namespace {
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Adds the time until it goes out of scope.
+class StageTimer {
+ public:
+  explicit StageTimer(double& total_ms) : total_ms_(total_ms) {}
+  ~StageTimer() { total_ms_ += ms_since(start_); }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  double& total_ms_;
+  Clock::time_point start_ = Clock::now();
+};
+
+// A map with what all scans of a call share.
+struct PreparedQuestion {
+  const PreparedState& map;
+  Lattice lattice;
+  std::vector<Domain> domains;  // one for all scans, or one per scan
+
+  [[nodiscard]] const Domain& domain(std::size_t scan) const {
+    return domains.size() == 1 ? domains.front() : domains[scan];
+  }
+};
+
+Proposal propose(const Query& query, const Method& method, SearchResult& result) {
+  const StageTimer timer(result.times.propose_ms);
+  Proposal proposal = method.propose(query);
+  result.proven = result.proven && proposal.proven;
+  result.counts.poses_scored += proposal.counts.poses_scored;
+  result.counts.bounds_computed += proposal.counts.bounds_computed;
+  return proposal;
+}
+
+void refine_modes(const Query& query, Modes& found, SearchResult& result) {
+  const StageTimer timer(result.times.refine_ms);
+  for (Mode& mode : found.modes) {
+    Hypothesis& hypothesis = mode.hypothesis;
+    hypothesis.score = mode.best.score;
+    hypothesis.T_map_robot_unrefined = query.lattice.T_map_robot(mode.best.pose);
+    const Refined refined = refine(query.map, query.points, query.lattice, hypothesis.T_map_robot_unrefined);
+    hypothesis.T_map_robot = refined.T_map_robot;
+    hypothesis.covariance = refined.covariance;
+  }
+}
+
+void verify_modes(const Query& query, Modes& found, SearchResult& result) {
+  const StageTimer timer(result.times.verify_ms);
+  std::vector<Pose2> T_map_robot;
+  for (const Mode& mode : found.modes) T_map_robot.push_back(mode.hypothesis.T_map_robot);
+  const std::vector<double> explained = explained_shares(query.map, query.scan, T_map_robot);
+  for (std::size_t i = 0; i < explained.size(); ++i) found.modes[i].hypothesis.explained = explained[i];
+  result.counts.rays_cast += static_cast<std::int64_t>(explained.size()) * result.beams_valid;
+}
+
+// Why there is nothing to go by; empty where there is.
+std::string nothing_to_go_by(const SearchResult& result) {
+  if (result.beams_valid == 0) return "no valid beam";
+  if (result.beams_echo == 0) return "no beam has an echo";
+  if (result.counts.poses_covered == 0) return "the prior holds no free cell";
+  return {};
+}
+
+SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t index, const Scan& scan,
+                         const SearchOptions& options, const Method& method, int threads) {
+  SearchResult result;
+  const StageTimer timer(result.times.total_ms);
+  const Clock::time_point start = Clock::now();
+  result.stamp_s = scan.stamp_s;
+  result.method = std::string(method.info.name) + " (" + active_isa() + ")";
+  result.beams_valid = count_valid(scan);
+  result.beams_echo = count_echoes(scan);
+  for (const PreparedQuestion& map : maps) result.counts.poses_covered += map.domain(index).poses;
+  result.reason = nothing_to_go_by(result);
+  if (!result.reason.empty()) return result;
+  result.proven = true;
+  std::vector<Modes> found;
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    if (maps[m].domain(index).poses == 0) continue;
+    const EndPoints points = make_end_points(scan, maps[m].lattice.resolution_m);
+    Query query{.map = maps[m].map, .scan = scan, .points = points, .lattice = maps[m].lattice,
+                .domain = maps[m].domain(index), .options = options, .threads = threads, .deadline = {}};
+    if (options.time_budget_s > 0.0)
+      query.deadline = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.time_budget_s));
+    const Proposal proposal = propose(query, method, result);
+    Modes modes = [&] {
+      const StageTimer rank_timer(result.times.rank_ms);
+      return find_modes(query, proposal.candidates, static_cast<std::size_t>(options.max_hypotheses));
+    }();
+    refine_modes(query, modes, result);
+    verify_modes(query, modes, result);
+    for (Mode& mode : modes.modes) mode.map_index = static_cast<int>(m);
+    found.push_back(std::move(modes));
+  }
+  const StageTimer rank_timer(result.times.rank_ms);
+  rank(found, options.max_hypotheses, result);
+  return result;
+}
+
+void require_on_map(const std::vector<PreparedQuestion>& maps, std::size_t priors) {
+  for (std::size_t i = 0; i < priors; ++i) {
+    const bool on_map = std::any_of(maps.begin(), maps.end(), [i](const PreparedQuestion& map) { return map.domains[i].on_map; });
+    if (!on_map)
+      throw Error(ErrorCode::invalid_argument,
+                  "prior" + (priors > 1 ? " " + std::to_string(i) : "") + " lies entirely off the map");
+  }
+}
+
+std::vector<PreparedQuestion> prepare_questions(std::span<const PreparedMap> maps, std::span<const PosePrior> priors,
+                                                const SearchOptions& options) {
+  std::vector<PreparedQuestion> questions;
+  for (const PreparedMap& map : maps) {
+    map.prepare();
+    PreparedQuestion question{.map = map.state(),
+                              .lattice = make_lattice(map.grid(), options.translation_step_m, options.rotation_step_rad),
+                              .domains = std::vector<Domain>(priors.size())};
+    const SharedMask free = question.map.free_mask(options.robot_radius_m, question.lattice.step_cells);
+    parallel_for(priors.size(), options.threads, [&](std::size_t i) { question.domains[i] = make_domain(priors[i], question.lattice, free); });
+    questions.push_back(std::move(question));
+  }
+  require_on_map(questions, priors.size());
+  return questions;
+}
+
+}  // namespace
+}  // namespace internal
+
+using namespace internal;
+
+std::vector<SearchResult> search(std::span<const PreparedMap> maps, std::span<const PosePrior> priors,
+                                 std::span<const Scan> scans, const SearchOptions& options) {
+  validate(options);
+  const Method& method = find_method(options.method);
+  if (maps.empty()) throw Error(ErrorCode::invalid_argument, "search: no map");
+  if (priors.size() != 1 && priors.size() != scans.size())
+    throw Error(ErrorCode::invalid_argument, "search: " + std::to_string(priors.size()) + " priors for " +
+                                                 std::to_string(scans.size()) + " scans, expected 1 or one per scan");
+  for (const PosePrior& prior : priors) validate(prior);
+  for (const Scan& scan : scans) validate(scan);
+  (void)active_isa();
+  const Clock::time_point start = Clock::now();
+  const std::vector<PreparedQuestion> questions = prepare_questions(maps, priors, options);
+  const double prepare_ms = ms_since(start);
+  std::vector<SearchResult> results(scans.size());
+  // Many scans run side by side, each in one thread; a single one gets all of them.
+  const bool side_by_side = scans.size() > 1;
+  parallel_for(scans.size(), side_by_side ? options.threads : 1, [&](std::size_t i) {
+    results[i] = search_scan(questions, i, scans[i], options, method, side_by_side ? 1 : options.threads);
+  });
+  if (!results.empty()) {
+    results.front().times.prepare_ms = prepare_ms;
+    results.front().times.total_ms += prepare_ms;
+  }
+  return results;
+}
+
+std::vector<SearchResult> search(const PreparedMap& map, std::span<const PosePrior> priors,
+                                 std::span<const Scan> scans, const SearchOptions& options) {
+  return search(std::span(&map, 1), priors, scans, options);
+}
+
+std::vector<SearchResult> search(const PreparedMap& map, const PosePrior& prior, std::span<const Scan> scans,
+                                 const SearchOptions& options) {
+  return search(std::span(&map, 1), std::span(&prior, 1), scans, options);
+}
+
+SearchResult search(const PreparedMap& map, const PosePrior& prior, const Scan& scan, const SearchOptions& options) {
+  return search(map, prior, std::span(&scan, 1), options).front();
+}
+
+std::span<const MethodInfo> methods() {
+  static const std::vector<MethodInfo> infos = [] {
+    std::vector<MethodInfo> all;
+    for (const Method& method : method_table()) all.push_back(method.info);
+    return all;
+  }();
+  return infos;
+}
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::found: return "found";
+    case Verdict::ambiguous: return "ambiguous";
+    case Verdict::lost: return "lost";
+  }
+  return "unknown";
+}
+
+}  // namespace landfall

@@ -1,0 +1,148 @@
+#include "engine/search_tables.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/parallel.hpp"
+#include "kernels/window_max.hpp"
+
+namespace landfall::internal {
+namespace {
+
+using kernels::block_cells;
+
+// In half blocks. The smallest holds a block and the rounding of its offset to a half block.
+constexpr std::array<int, BoundTable::window_sizes> sizes{3, 4, 6, 10, 18};
+
+std::uint8_t to_level(std::uint8_t value) {
+  return static_cast<std::uint8_t>((value * kernels::bound_levels + 254) / 255);
+}
+
+std::vector<std::uint8_t> reduce(std::span<const std::uint8_t> in, int cols, int rows, int factor, int out_cols, int out_rows) {
+  std::vector<std::uint8_t> out(static_cast<std::size_t>(out_cols) * static_cast<std::size_t>(out_rows));
+  const auto width = static_cast<std::size_t>(cols);
+  parallel_for(static_cast<std::size_t>(out_rows), 0, [&](std::size_t r) {
+    const std::size_t first = r * static_cast<std::size_t>(factor);
+    const std::size_t last = std::min(first + static_cast<std::size_t>(factor), static_cast<std::size_t>(rows));
+    std::vector<std::uint8_t> tallest(in.begin() + static_cast<std::ptrdiff_t>(first * width),
+                                      in.begin() + static_cast<std::ptrdiff_t>((first + 1) * width));
+    for (std::size_t row = first + 1; row < last; ++row)
+      kernels::maximum(tallest.data(), in.data() + row * width, width, tallest.data());
+    kernels::reduce_max(tallest.data(), width, static_cast<std::size_t>(factor), out.data() + r * static_cast<std::size_t>(out_cols));
+  });
+  return out;
+}
+
+int divide_up(int a, int b) { return (a + b - 1) / b; }
+
+}  // namespace
+
+int BoundTable::window_halves(int index) { return sizes[static_cast<std::size_t>(index)]; }
+
+int BoundTable::window_index(int halves) {
+  for (int i = 0; i < window_sizes; ++i)
+    if (sizes[static_cast<std::size_t>(i)] >= halves) return i;
+  return -1;
+}
+
+BoundTable::BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, int half_rows, int block_cells)
+    : block_cells_(block_cells),
+      cols_(divide_up(half_cols, phases) + pad_cols + kernels::tile_cols),
+      rows_(divide_up(half_rows, phases) + pad_rows + kernels::tile_rows),
+      plane_bytes_(cols_ * rows_) {
+  data_.resize(static_cast<std::size_t>(plane_bytes_) * window_sizes * phases * phases);
+  // Windows of h halves that begin at half p - margin, p in [0, padded): enough to reach off the map.
+  const int margin = sizes.back();
+  const int padded_cols = half_cols + margin;
+  const int padded_rows = half_rows + margin;
+  const auto width = static_cast<std::size_t>(padded_cols);
+  for (int index = 0; index < window_sizes; ++index) {
+    const int size = window_halves(index);
+    std::vector<std::uint8_t> across(width * static_cast<std::size_t>(half_rows));
+    parallel_for(static_cast<std::size_t>(half_rows), 0, [&](std::size_t r) {
+      const std::uint8_t* in = halves.data() + r * static_cast<std::size_t>(half_cols);
+      for (int p = 0; p < padded_cols; ++p) {
+        const int first = std::max(0, p - margin);
+        const int last = std::min(half_cols, p - margin + size);
+        if (first < last) across[r * width + static_cast<std::size_t>(p)] = *std::max_element(in + first, in + last);
+      }
+    });
+    parallel_for(static_cast<std::size_t>(padded_rows), 0, [&](std::size_t q) {
+      const int row_half = static_cast<int>(q) - margin;
+      std::vector<std::uint8_t> tallest(width);
+      for (int r = std::max(0, row_half); r < std::min(half_rows, row_half + size); ++r)
+        kernels::maximum(tallest.data(), across.data() + static_cast<std::size_t>(r) * width, width, tallest.data());
+      const int phase_row = row_half & 1;
+      const int row = (row_half - phase_row) / phases + pad_rows;
+      for (int p = 0; p < padded_cols; ++p) {
+        const int col_half = p - margin;
+        const int phase_col = col_half & 1;
+        const int col = (col_half - phase_col) / phases + pad_cols;
+        data_[static_cast<std::size_t>(plane(index, phase_row, phase_col) + row * cols_ + col)] =
+            to_level(tallest[static_cast<std::size_t>(p)]);
+      }
+    });
+  }
+}
+
+kernels::BoundPlanes BoundTable::planes() const {
+  return {.data = data_.data(),
+          .stride = cols_,
+          .last_col = cols_ - kernels::tile_cols,
+          .last_row = rows_ - kernels::tile_rows};
+}
+
+kernels::WindowPlanes SearchTables::planes() const {
+  return {.window_max = window_max.data(),
+          .column_of_4 = column_of_4.data(),
+          .stride = width_cells + 2 * block_cells,
+          .width = width_cells,
+          .height = height_cells};
+}
+
+std::size_t SearchTables::memory_bytes() const {
+  std::size_t bytes = window_max.capacity() + 4 * column_of_4.capacity();
+  for (const BoundTable& table : bounds) bytes += table.memory_bytes();
+  return bytes;
+}
+
+SearchTables make_search_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells) {
+  constexpr std::size_t gather_slack = 4;  // bytes that a four-byte load may read past the last one
+  SearchTables tables{.width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_4 = {}, .bounds = {}};
+  const auto width = static_cast<std::size_t>(width_cells);
+  const std::size_t stride = width + 2 * block_cells;
+  const std::size_t rows = static_cast<std::size_t>(height_cells) + 2 * block_cells;
+  tables.window_max.resize(stride * rows + gather_slack);
+  tables.column_of_4.resize(stride * rows);
+  const std::vector<std::uint8_t> nothing(width);
+  const auto field_row = [&](std::size_t padded_row) {
+    const bool inside = padded_row >= block_cells && padded_row < block_cells + static_cast<std::size_t>(height_cells);
+    return inside ? field.data() + (padded_row - block_cells) * width : nothing.data();
+  };
+  parallel_for(rows, 0, [&](std::size_t r) {
+    kernels::interleave_4(field_row(r), field_row(r + 1), field_row(r + 2), field_row(r + 3), width,
+                          tables.column_of_4.data() + r * stride + block_cells);
+    std::vector<std::uint8_t> tallest(stride + block_cells);
+    std::vector<std::uint8_t> scratch(stride + block_cells);
+    for (std::size_t row = r; row < r + block_cells; ++row)
+      kernels::maximum(tallest.data() + block_cells, field_row(row), width, tallest.data() + block_cells);
+    std::vector<std::uint8_t> slid(stride + block_cells);
+    kernels::sliding_max_8(tallest.data(), stride + block_cells, scratch.data(), slid.data());
+    std::copy_n(slid.data(), stride, tables.window_max.data() + r * stride);
+  });
+  std::vector<std::uint8_t> halves;
+  int cols = width_cells;
+  int half_rows = height_cells;
+  for (int cells = block_cells; cells <= 4 * block_cells; cells *= 2) {
+    const int factor = halves.empty() ? cells / BoundTable::phases : 2;
+    const int out_cols = divide_up(cols, factor);
+    const int out_rows = divide_up(half_rows, factor);
+    halves = reduce(halves.empty() ? field : std::span<const std::uint8_t>(halves), cols, half_rows, factor, out_cols, out_rows);
+    cols = out_cols;
+    half_rows = out_rows;
+    tables.bounds.emplace_back(halves, cols, half_rows, cells);
+  }
+  return tables;
+}
+
+}  // namespace landfall::internal

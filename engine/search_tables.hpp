@@ -1,0 +1,61 @@
+// What branch and bound reads: window maxima of the likelihood field, from single blocks of 8 x 8 cells
+// (window planes) to coarse tables for groups of headings (bound tables).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/bound_tile.hpp"
+#include "kernels/score_block.hpp"
+
+namespace landfall::internal {
+
+// Window maxima of 0..31 for blocks of `block_cells` cells, one set of planes per window size: windows
+// begin at every half block, stored by phase (even and odd halves apart), so that neighbouring blocks
+// are neighbouring bytes.
+class BoundTable {
+ public:
+  static constexpr int window_sizes = 5;
+  static constexpr int phases = 2;
+
+  // From maxima over half-block cells: halves[row * half_cols + col].
+  BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, int half_rows, int block_cells);
+
+  [[nodiscard]] int block_cells() const { return block_cells_; }
+  [[nodiscard]] int half_cells() const { return block_cells_ / phases; }
+  // Window size of index i in half blocks, and the first index that covers `halves` of them; -1: none.
+  static int window_halves(int index);
+  static int window_index(int halves);
+  [[nodiscard]] kernels::BoundPlanes planes() const;
+  // First byte of a plane.
+  [[nodiscard]] std::int32_t plane(int window_index, int phase_row, int phase_col) const {
+    return ((window_index * phases + phase_row) * phases + phase_col) * plane_bytes_;
+  }
+  // The padding to be added to a block index to get a plane's column or row.
+  static constexpr int pad_cols = kernels::tile_cols + 12;
+  static constexpr int pad_rows = kernels::tile_rows + 12;
+  [[nodiscard]] std::size_t memory_bytes() const { return data_.capacity(); }
+
+ private:
+  int block_cells_;
+  int cols_;  // of a plane, padding included
+  int rows_;
+  std::int32_t plane_bytes_;
+  std::vector<std::uint8_t> data_;
+};
+
+struct SearchTables {
+  int width_cells = 0;
+  int height_cells = 0;
+  std::vector<std::uint8_t> window_max;
+  std::vector<std::uint32_t> column_of_4;
+  std::vector<BoundTable> bounds;  // [0]: blocks of 8 cells, [1]: of 16, [2]: of 32
+
+  [[nodiscard]] kernels::WindowPlanes planes() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+};
+
+SearchTables make_search_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells);
+
+}  // namespace landfall::internal
