@@ -70,6 +70,10 @@ void bind_poses(nb::module_& module) {
            [](const Pose2& pose) { return nb::hash(nb::make_tuple(pose.x_m, pose.y_m, pose.theta_rad)); })
       .def("__len__", [](const Pose2&) { return 3; })
       .def("__getitem__", &component)
+      .def(
+          "__iter__",
+          [](const Pose2& pose) { return nb::iter(nb::make_tuple(pose.x_m, pose.y_m, pose.theta_rad)); },
+          nb::sig("def __iter__(self) -> collections.abc.Iterator[float]"))
       .def("__getstate__",
            [](const Pose2& pose) { return std::make_tuple(pose.x_m, pose.y_m, pose.theta_rad); })
       .def("__setstate__",
