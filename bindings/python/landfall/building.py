@@ -76,8 +76,7 @@ def make_building(seed: int) -> Building:
     _add_row(building, rng, (0, WIDTH_M), (upper + CORRIDOR_M, height), upper + CORRIDOR_M)
     for room in building.rooms:
         building.walls += _furniture(rng, room)
-    for corridor_y in building.corridors_y_m:
-        building.walls += _cupboards(rng, building, corridor_y)
+    building.walls += _corridor_cupboards(rng, building)
     return building
 
 
@@ -148,17 +147,30 @@ def _furniture(rng: np.random.Generator, room: Room) -> Iterator[Segment]:
         yield from _rectangle(px, py, px + 0.35, py + 0.35)
 
 
-def _cupboards(rng: np.random.Generator, building: Building, corridor_y: float) -> Iterator[Segment]:
-    """Here and there along a corridor's walls, clear of the doors: no two stretches look quite alike."""
-    x = CORRIDOR_M + float(rng.uniform(1.0, 3.0))
-    while x < WIDTH_M - CORRIDOR_M - 2.0:
+def _corridor_cupboards(rng: np.random.Generator, building: Building) -> Iterator[Segment]:
+    """Along all four corridors, clear of the doors: no two stretches look quite alike."""
+    lower_y, upper_y = building.corridors_y_m
+    for y in (lower_y, upper_y):
+        doors = [(room.door_x_m, room.door_y_m) for room in building.rooms]
+        yield from _cupboards(rng, (CORRIDOR_M, WIDTH_M - CORRIDOR_M), y, doors)
+    for x in (CORRIDOR_M / 2, WIDTH_M - CORRIDOR_M / 2):
+        for x0, y0, x1, y1 in _cupboards(rng, (lower_y + CORRIDOR_M, upper_y - CORRIDOR_M), x, []):
+            yield y0, x0, y1, x1
+
+
+def _cupboards(
+    rng: np.random.Generator, span: tuple[float, float], middle: float, doors: Sequence[tuple[float, float]]
+) -> Iterator[Segment]:
+    """On either side of a corridor along x whose middle is y = middle."""
+    x = span[0] + float(rng.uniform(0.3, 2.0))
+    while x < span[1] - 1.6:
         width, depth = float(rng.uniform(0.5, 1.6)), float(rng.uniform(0.25, 0.45))
         side = 1.0 if rng.random() < 0.5 else -1.0
-        wall_y = corridor_y + side * CORRIDOR_M / 2
-        doors_x = [room.door_x_m for room in building.rooms if abs(room.door_y_m - wall_y) < 0.1]
-        if all(door_x + DOOR_M < x or x + width < door_x - DOOR_M for door_x in doors_x):
+        wall_y = middle + side * CORRIDOR_M / 2
+        beside = [door_x for door_x, door_y in doors if abs(door_y - wall_y) < 0.1]
+        if all(door_x + DOOR_M < x or x + width < door_x - DOOR_M for door_x in beside):
             yield from _rectangle(x, wall_y, x + width, wall_y - side * depth)
-        x += width + float(rng.uniform(1.0, 4.0))
+        x += width + float(rng.uniform(0.8, 3.0))
 
 
 def laser(range_noise_m: float = 0.01) -> Sensor:
