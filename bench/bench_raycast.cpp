@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -71,10 +72,11 @@ GridMap office() {
 
 std::vector<raycast::Beam> fan(int count, double step_rad, double half_angle_rad) {
   std::vector<raycast::Beam> beams;
+  beams.reserve(static_cast<std::size_t>(count));
   for (int b = 0; b < count; ++b)
     beams.push_back({.x_m = 0.0,
                      .y_m = 0.0,
-                     .theta_rad = (b - count / 2) * step_rad,
+                     .theta_rad = b * step_rad,
                      .half_angle_rad = half_angle_rad,
                      .range_max_m = range_max_m});
   return beams;
@@ -159,7 +161,7 @@ void walk_rays(benchmark::State& state, const Place& place) {
 }
 
 void register_place(const Place& place) {
-  const auto add = [&](const char* what, auto run) {
+  const auto add = [&](const char* what, const std::function<void(benchmark::State&)>& run) {
     benchmark::RegisterBenchmark((place.name + "/" + what).c_str(), run)->Unit(benchmark::kMillisecond);
   };
   const auto add_fan = [&](const char* what, const std::vector<raycast::Beam>& beams) {

@@ -55,7 +55,7 @@ TEST(CounterRng, BelowReachesAllOfItsValuesAlike) {
   CounterRng rng(1, 2, 3);
   std::vector<int> count(6, 0);
   for (int i = 0; i < draws; ++i) ++count.at(rng.below(6));
-  for (const int n : count) EXPECT_NEAR(n, draws / 6, 5.0 * std::sqrt(draws * 5.0 / 36.0));
+  for (const int n : count) EXPECT_NEAR(n, draws / 6.0, 5.0 * std::sqrt(draws * 5.0 / 36.0));
 }
 
 }  // namespace

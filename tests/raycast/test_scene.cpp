@@ -122,11 +122,13 @@ TEST(Scene, NoRaySlipsThroughACorner) {
 TEST(Scene, AnswersTheSameFromManyThreads) {
   const Scene scene(room_at(0.0, 0.0));
   std::vector<Beam> beams;
+  beams.reserve(101);
   for (int i = 0; i < 100; ++i) beams.push_back(ray_beam(0.06 * i));
   beams.push_back({.x_m = 0.0, .y_m = 0.0, .theta_rad = 0.0, .half_angle_rad = 0.2, .range_max_m = 80.0});
   const std::vector<Pose> poses(50, Pose{1.0, 1.0, 0.4});
   std::vector<std::vector<float>> answers(4);
   std::vector<std::thread> threads;
+  threads.reserve(answers.size());
   for (auto& answer : answers) threads.emplace_back([&] { answer = cast(scene, poses, beams); });
   for (auto& thread : threads) thread.join();
   for (const auto& answer : answers) EXPECT_EQ(answer, cast(scene, poses, beams));

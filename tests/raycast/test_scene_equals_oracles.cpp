@@ -23,6 +23,7 @@ constexpr double range_max_m = 60.0;
 
 std::vector<raycast::Beam> fan(int count) {
   std::vector<raycast::Beam> beams;
+  beams.reserve(static_cast<std::size_t>(count));
   for (int b = 0; b < count; ++b)
     beams.push_back(
         {.x_m = 0.0, .y_m = 0.0, .theta_rad = 0.07 * b, .half_angle_rad = 0.0, .range_max_m = range_max_m});
@@ -119,6 +120,7 @@ TEST(SceneEqualsNearestCrossing, OnRandomWalls) {
   Agreement agreement;
   for (const int count : {1, 2, 10, 100}) {
     std::vector<raycast::Segment> walls;
+    walls.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
       walls.push_back({40.0 * uniform(rng), 40.0 * uniform(rng), 40.0 * uniform(rng), 40.0 * uniform(rng)});
     compare_fans(walls, 40.0, 50, rng, agreement);

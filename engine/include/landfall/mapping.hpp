@@ -20,8 +20,9 @@ struct MappingOptions {
 };
 
 // Occupancy from scans at known poses: every scan's T_map_robot must be set. Log odds are added along
-// each beam (Moravec & Elfes 1985; Thrun et al., Probabilistic Robotics, 9.2); a beam without echo
-// frees nothing; the grid covers all echoes and poses.
+// each beam (Moravec & Elfes 1985; Thrun et al., Probabilistic Robotics, 9.2), once a cell and scan, where
+// a hit outweighs misses; a beam without echo frees nothing, one with a half-angle counts by its centre
+// line; the grid covers all echoes and poses, its corner at a multiple of the resolution.
 // Throws Error{invalid_argument}: no scans, a scan without pose; Error{too_large}: a map beyond limits.
 GridMap map_from_known_poses(std::span<const Scan> scans, const MappingOptions& options = {});
 
