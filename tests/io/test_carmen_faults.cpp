@@ -26,7 +26,8 @@ TEST_F(CarmenFaults, TooFewRanges) {
 }
 
 TEST_F(CarmenFaults, TooManyRanges) {
-  expect_fault("FLASER 2 1 2 3  0 0 0 0 0 0 5.5 host 5.5\n", {"FLASER readings: found 10 numbers, expected 9: 2 ranges and 7 more"});
+  expect_fault("FLASER 2 1 2 3  0 0 0 0 0 0 5.5 host 5.5\n",
+               {"FLASER readings: found 10 numbers, expected 9: 2 ranges and 7 more"});
 }
 
 TEST_F(CarmenFaults, NumberOfReadings) {

@@ -76,13 +76,13 @@ TEST_F(GridMapFaults, NotYaml) {
 
 TEST_F(GridMapFaults, HostileYaml) {
   expect_yaml_error(std::string(2000, '['), {"floor.yaml"});
-  std::string aliases = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  std::ostringstream aliases;
+  aliases << "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 9; ++i) {
-    const std::string last = "*a" + std::to_string(i - 1);
-    aliases += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [";
-    for (int k = 0; k < 10; ++k) aliases += last + (k < 9 ? ", " : "]\n");
+    aliases << "a" << i << ": &a" << i << " [";
+    for (int k = 0; k < 10; ++k) aliases << "*a" << i - 1 << (k < 9 ? ", " : "]\n");
   }
-  const auto path = write("floor.yaml", aliases);
+  const auto path = write("floor.yaml", aliases.str());
   expect_error([&] { load_grid_map(path); }, ErrorCode::too_large, {"floor.yaml", "a million values"});
 }
 

@@ -20,7 +20,7 @@ class SonarTables : public IoTest {
 
 std::string scitos_row(const std::string& first = "0.438") {
   std::string row = first;
-  for (int i = 1; i < 24; ++i) row += "," + std::to_string(i) + ".5";
+  for (int i = 1; i < 24; ++i) row.append(",").append(std::to_string(i)).append(".5");
   return row + ",Move-Forward\n";
 }
 
