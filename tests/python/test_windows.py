@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import landfall
 import pytest
-from landfall.windows import Query, scan_windows, single_queries, time_windows, with_motion
+from landfall.windows import Composition, Query, scan_windows, single_queries, time_windows, with_motion
 
 
 @pytest.fixture
@@ -39,7 +39,12 @@ def test_windows_without_motion_are_left_out(log):
 
 
 def test_composite_is_seen_from_the_last_scan(scans):
-    composite = Query(2, 6).scan(scans, max_scans=0, threads=1)
+    composite = Query(2, 6).scan(scans, Composition())
     assert len(composite) == 5 * 181 and composite.stamp_s == scans[6].stamp_s
     assert composite.ranges_m[-181:] == pytest.approx(scans[6].ranges_m)
-    assert len(Query(2, 6).scan(scans, max_scans=3, threads=1)) == 3 * 181
+    assert len(Query(2, 6).scan(scans, Composition(max_scans=3))) == 3 * 181
+
+
+def test_odometry_as_it_is(scans):
+    composite = Query(2, 3).scan(scans, Composition(aligned=False))
+    assert composite.points_robot() == pytest.approx(landfall.merge(scans[2:4]).points_robot())

@@ -11,7 +11,7 @@ import numpy as np
 from landfall._landfall import Pose2, PosePrior, PreparedMap, Scan, SearchOptions, SearchResult, search_batch
 from landfall.interrupts import CleanStop
 from landfall.outputs import ResultsFile
-from landfall.windows import Query
+from landfall.windows import Composition, Query
 
 CHUNK_S = 0.3  # work between two looks at the clock: the bar moves and Ctrl-C is answered
 MAX_CHUNK = 256
@@ -25,10 +25,10 @@ class Question:
     prior: PosePrior
     options: SearchOptions
     one_at_a_time: bool = False  # each scan has all threads to itself
-    window_max_scans: int = 0
+    composition: Composition = field(default_factory=Composition)
 
     def ask(self, log: Sequence[Scan], queries: Sequence[Query]) -> list[SearchResult]:
-        scans = [q.scan(log, self.window_max_scans, self.options.threads) for q in queries]
+        scans = [q.scan(log, self.composition) for q in queries]
         if not self.one_at_a_time:
             return search_batch(self.maps, [self.prior], scans, self.options)
         return [search_batch(self.maps, [self.prior], [scan], self.options)[0] for scan in scans]

@@ -12,19 +12,30 @@ from landfall.errors import InvalidArgument
 
 
 @dataclass(frozen=True)
+class Composition:
+    """How the scans of a window become one."""
+
+    max_scans: int = 0  # evenly spread ones of a longer window; 0: all
+    aligned: bool = True  # odometry's relative poses polished by scan matching, or as they are
+    threads: int = 0
+
+
+@dataclass(frozen=True)
 class Query:
     """Scans first..last of the log, asked as one and answered in scan last's robot frame, under its stamp."""
 
     first: int
     last: int
 
-    def scan(self, log: Sequence[Scan], max_scans: int, threads: int) -> Scan:
-        """The scan to search: the log's own, or a composite of at most max_scans evenly spread ones."""
-        members = [log[i] for i in _spread(self.first, self.last, max_scans)]
+    def scan(self, log: Sequence[Scan], composition: Composition) -> Scan:
+        """The scan to search: the log's own, or a composite."""
+        members = [log[i] for i in _spread(self.first, self.last, composition.max_scans)]
         if len(members) == 1:
             return members[0]
+        if not composition.aligned:
+            return merge(members)
         reference = len(members) - 1
-        return merge(members, align(members, reference, threads=threads), reference)
+        return merge(members, align(members, reference, threads=composition.threads), reference)
 
 
 def single_queries(count: int, every: int = 1) -> list[Query]:

@@ -33,7 +33,7 @@ from landfall.outputs import ResultsFile, add_chosen, make_folder, require_folde
 from landfall.progress import progress_bar
 from landfall.relocalization import Answers, Question, relocalize
 from landfall.searching import search_options
-from landfall.windows import Query, scan_windows, single_queries, time_windows, with_motion
+from landfall.windows import Composition, Query, scan_windows, single_queries, time_windows, with_motion
 
 
 def run(
@@ -61,6 +61,7 @@ def run(
     window_max_scans: Annotated[
         int, typer.Option("--window-max-scans", min=0, help="Evenly spread scans of a window; 0: all.")
     ] = 0,
+    no_align: Annotated[bool, typer.Option("--no-align", help="Windows by odometry as it is.")] = False,
     disjoint: Annotated[bool, typer.Option("--disjoint", help="Windows one after the other.")] = False,
     min_motion_m: Annotated[
         float, typer.Option("--min-motion-m", help="Leave out windows that moved less.")
@@ -99,7 +100,8 @@ def run(
         if path is not None:
             require_folder(path)
     maps = load_maps(map)
-    question = Question(maps, read_prior(prior), options, one_at_a_time, window_max_scans)
+    composition = Composition(window_max_scans, not no_align, threads)
+    question = Question(maps, read_prior(prior), options, one_at_a_time, composition)
     scans = _scans(log, read_log(log, sensor), consistent)
     queries = _queries(scans, window_scans, window_s, disjoint, every, min_motion_m)[:limit]
     if not queries:
@@ -192,6 +194,6 @@ def _draw(
         draw_trajectory(question.maps, answers, picture)
     for position in sorted(drawn & set(answers.kept)):
         query = answers.queries[position]
-        scan = query.scan(scans, question.window_max_scans, question.options.threads)
+        scan = query.scan(scans, question.composition)
         file = make_folder(folder) / f"query_{query.last:05d}.png"
         draw_answer(question.maps, scan, answers.kept[position], file)
