@@ -1,13 +1,14 @@
-/* A room of 3.6 x 2.4 m that looks different from every place and heading. */
+/* A room of 7.2 x 4.8 m that looks different from every place and heading; a character is 4 x 4 cells of 5
+ * cm. */
 #ifndef LANDFALL_TESTS_DRAWN_ROOM_H
 #define LANDFALL_TESTS_DRAWN_ROOM_H
 
 #include "check.h"
 
-enum { ROOM_WIDTH = 36, ROOM_HEIGHT = 24 };
+enum { DRAWN_ROWS = 24, CELLS_PER_CHARACTER = 4, ROOM_WIDTH = 36 * 4, ROOM_HEIGHT = 24 * 4 };
 
 /* clang-format off */
-static const char* const ROOM[ROOM_HEIGHT] = {
+static const char* const ROOM[DRAWN_ROWS] = {
     "####################################",
     "#..................#...............#",
     "#..................#...............#",
@@ -35,13 +36,16 @@ static const char* const ROOM[ROOM_HEIGHT] = {
 };
 /* clang-format on */
 
+static char drawn(int row, int col) {
+  return ROOM[DRAWN_ROWS - 1 - row / CELLS_PER_CHARACTER][col / CELLS_PER_CHARACTER];
+}
+
 static landfall_map* make_room(void) {
   static uint8_t cells[ROOM_WIDTH * ROOM_HEIGHT];
   for (int row = 0; row < ROOM_HEIGHT; ++row)
     for (int col = 0; col < ROOM_WIDTH; ++col)
-      cells[row * ROOM_WIDTH + col] =
-          ROOM[ROOM_HEIGHT - 1 - row][col] == '#' ? LANDFALL_OCCUPIED : LANDFALL_FREE;
-  const landfall_grid grid = {ROOM_WIDTH, ROOM_HEIGHT, 0.1, {0.0, 0.0, 0.0}, cells};
+      cells[row * ROOM_WIDTH + col] = drawn(row, col) == '#' ? LANDFALL_OCCUPIED : LANDFALL_FREE;
+  const landfall_grid grid = {ROOM_WIDTH, ROOM_HEIGHT, 0.05, {0.0, 0.0, 0.0}, cells};
   landfall_map* map = NULL;
   CHECK_OK(landfall_map_from_grid(&grid, &map));
   return map;

@@ -13,19 +13,19 @@ static void map_round_trip(void) {
   landfall_grid after;
   CHECK_OK(landfall_map_grid(map, &before));
   CHECK_OK(landfall_map_grid(loaded, &after));
-  CHECK(after.width_cells == ROOM_WIDTH && after.height_cells == ROOM_HEIGHT && after.resolution_m == 0.1);
+  CHECK(after.width_cells == ROOM_WIDTH && after.height_cells == ROOM_HEIGHT && after.resolution_m == 0.05);
   CHECK(memcmp(before.cells, after.cells, (size_t)(ROOM_WIDTH * ROOM_HEIGHT)) == 0);
   landfall_map_free(loaded);
   landfall_map_free(map);
 }
 
-/* Three scans half a metre apart, with odometry that says so in a frame of its own. */
+/* Three scans a metre apart, with odometry that says so in a frame of its own. */
 static landfall_scans* make_drive(const landfall_map* map, const landfall_sensor* scanner) {
   landfall_scans* drive = NULL;
   CHECK_OK(landfall_scans_new(&drive));
   for (int i = 0; i < 3; ++i) {
-    const landfall_pose T_map_robot = {0.5 + 0.5 * i, 1.2, 0.0};
-    const landfall_pose T_odom_robot = {0.5 * i, 0.0, 0.0};
+    const landfall_pose T_map_robot = {1.0 + i, 2.4, 0.0};
+    const landfall_pose T_odom_robot = {i, 0.0, 0.0};
     float ranges_m[360];
     CHECK_OK(landfall_simulate_ranges(map, scanner, &T_map_robot, 1, ranges_m, 360));
     CHECK_OK(landfall_scans_add(drive, scanner, ranges_m, 360, i, &T_odom_robot));
@@ -36,7 +36,7 @@ static landfall_scans* make_drive(const landfall_map* map, const landfall_sensor
 static void merge_and_search(const landfall_map* map, landfall_scans* drive) {
   landfall_pose T_last_robot[3];
   CHECK_OK(landfall_scans_align(drive, 0, 3, 2, T_last_robot));
-  CHECK(fabs(T_last_robot[0].x_m + 1.0) < 0.1 && fabs(T_last_robot[2].x_m) < 1e-9);
+  CHECK(fabs(T_last_robot[0].x_m + 2.0) < 0.05 && fabs(T_last_robot[2].x_m) < 1e-9);
   CHECK_OK(landfall_scans_merge(drive, 0, 3, T_last_robot, 2, drive));
   CHECK_OK(landfall_scans_merge(drive, 0, 3, NULL, 2, drive));
   landfall_scan merged;
@@ -50,7 +50,7 @@ static void merge_and_search(const landfall_map* map, landfall_scans* drive) {
   landfall_result result;
   CHECK_OK(landfall_results_get(results, 4, &result));
   CHECK(result.hypothesis_count > 0);
-  CHECK(hypot(result.hypotheses[0].T_map_robot.x_m - 1.5, result.hypotheses[0].T_map_robot.y_m - 1.2) < 0.05);
+  CHECK(hypot(result.hypotheses[0].T_map_robot.x_m - 3.0, result.hypotheses[0].T_map_robot.y_m - 2.4) < 0.05);
   landfall_results_free(results);
   landfall_prior_free(anywhere);
 }
@@ -64,7 +64,7 @@ static void log_round_trip(const landfall_scans* drive) {
   landfall_scan after;
   CHECK_OK(landfall_scans_get(drive, 1, &before));
   CHECK_OK(landfall_scans_get(loaded, 1, &after));
-  CHECK(after.stamp_s == 1.0 && after.has_odometry == 1 && after.T_odom_robot.x_m == 0.5 &&
+  CHECK(after.stamp_s == 1.0 && after.has_odometry == 1 && after.T_odom_robot.x_m == 1.0 &&
         after.has_pose == 0);
   CHECK(after.range_count == 360 && fabsf(after.ranges_m[90] - before.ranges_m[90]) < 1e-3F);
   landfall_scans_free(loaded);

@@ -4,7 +4,7 @@
 
 #include "drawn_room.h"
 
-static const landfall_pose TRUTH = {1.234, 1.777, 0.6};
+static const landfall_pose TRUTH = {2.468, 3.554, 0.6};
 
 static void check_pose(const landfall_results* results, size_t index) {
   landfall_result result;
@@ -12,7 +12,7 @@ static void check_pose(const landfall_results* results, size_t index) {
   CHECK(result.hypothesis_count >= 1 && result.hypothesis_count <= 5);
   const landfall_hypothesis* best = &result.hypotheses[0];
   CHECK(hypot(best->T_map_robot.x_m - TRUTH.x_m, best->T_map_robot.y_m - TRUTH.y_m) < 0.05);
-  CHECK(fabs(best->T_map_robot.theta_rad - TRUTH.theta_rad) < 0.03);
+  CHECK(fabs(best->T_map_robot.theta_rad - TRUTH.theta_rad) < 0.02);
   CHECK(best->explained > 0.9 && best->explained <= 1.0);
   CHECK(best->map_index == 0 && best->score > 0);
   CHECK(result.verdict == LANDFALL_FOUND && result.proven == 1);
@@ -45,10 +45,10 @@ static void search_under(landfall_prior* prior, const landfall_map* map, const l
 
 static void search_under_every_prior(const landfall_map* map, const landfall_scans* scans) {
   const double covariance[9] = {0.04, 0.0, 0.0, 0.0, 0.04, 0.0, 0.0, 0.0, 0.01};
-  const landfall_pose near_truth = {1.2, 1.8, 0.5};
-  const landfall_point corners[4] = {{0.2, 1.5}, {1.8, 1.5}, {1.8, 2.2}, {0.2, 2.2}};
-  const landfall_point beacon = {1.0, 1.6};
-  const double radius_m = 0.5;
+  const landfall_pose near_truth = {2.4, 3.6, 0.5};
+  const landfall_point corners[4] = {{0.4, 3.0}, {3.6, 3.0}, {3.6, 4.4}, {0.4, 4.4}};
+  const landfall_point beacon = {2.0, 3.2};
+  const double radius_m = 1.0;
   landfall_prior* prior = NULL;
   CHECK_OK(landfall_prior_anywhere(&prior));
   search_under(prior, map, scans);
