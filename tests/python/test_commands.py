@@ -151,6 +151,22 @@ def test_convert_keeps_the_scans(files, landfall_command):
     assert out.read_text() == files.log.read_text()
 
 
+def test_convert_takes_a_part_and_its_poses(tmp_path, scans, landfall_command):
+    landfall.save_log(scans, tmp_path / "whole.jsonl")
+    landfall_command(
+        "convert", "--log", tmp_path / "whole.jsonl", "--out", tmp_path / "part.jsonl",
+        "--poses", tmp_path / "part.tum", "--from-index", 4, "--to-index", 7,
+    )  # fmt: skip
+    assert [scan.stamp_s for scan in landfall.load_log(tmp_path / "part.jsonl").scans] == [
+        104.0,
+        105.0,
+        106.0,
+    ]
+    assert list(landfall.load_trajectory(tmp_path / "part.tum")[0][1]) == pytest.approx(
+        list(POSES[4]), abs=1e-5
+    )
+
+
 def test_methods_and_version(landfall_command):
     done = landfall_command("methods")
     assert "branch_and_bound" in done.out and landfall.active_isa() in done.out
