@@ -58,7 +58,7 @@ std::vector<std::int32_t> squared_distances(const std::vector<std::uint8_t>& mar
   return squared;
 }
 
-std::vector<std::uint8_t> likelihood_field(const GridMap& map, double sigma_m) {
+std::vector<std::uint8_t> likelihood_field(const GridMap& map, double sigma_m, std::uint8_t unknown_value) {
   std::vector<std::uint8_t> marked(map.cells.size());
   std::transform(map.cells.begin(), map.cells.end(), marked.begin(),
                  [](Occupancy cell) { return cell == Occupancy::occupied ? std::uint8_t{1} : std::uint8_t{0}; });
@@ -83,6 +83,8 @@ std::vector<std::uint8_t> likelihood_field(const GridMap& map, double sigma_m) {
       }
       for (std::size_t c = 0; c < width; ++c)
         field[at + c] = values[static_cast<std::size_t>(std::min(squared[c], last))];
+      for (std::size_t c = 0; unknown_value > 0 && c < width; ++c)
+        if (map.cells[at + c] == Occupancy::unknown) field[at + c] = std::max(field[at + c], unknown_value);
     }
   });
   return field;

@@ -13,6 +13,7 @@ namespace landfall::internal {
 std::vector<std::int32_t> squared_distances(const std::vector<std::uint8_t>& marked, int width, int height);
 
 // 255 exp(-d^2 / (2 sigma^2)), rounded (Thrun et al., Probabilistic Robotics, 6.4).
-std::vector<std::uint8_t> likelihood_field(const GridMap& map, double sigma_m);
+// Unknown cells have at least `unknown_value`.
+std::vector<std::uint8_t> likelihood_field(const GridMap& map, double sigma_m, std::uint8_t unknown_value);
 
 }  // namespace landfall::internal

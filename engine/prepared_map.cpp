@@ -30,11 +30,16 @@ const std::vector<std::int32_t>& PreparedState::squared_distance_cells() const {
 }
 
 const std::vector<std::uint8_t>& PreparedState::field() const {
-  return field_.get([this] { return likelihood_field(grid_, options_.field_sigma_m); });
+  return field_.get([this] { return likelihood_field(grid_, options_.field_sigma_m, options_.unknown_value); });
 }
 
-const SearchTables& PreparedState::tables() const {
-  return tables_.get([this] { return make_search_tables(field(), grid_.width_cells, grid_.height_cells); });
+const WindowTables& PreparedState::window_tables() const {
+  return window_tables_.get([this] { return make_window_tables(field(), grid_.width_cells, grid_.height_cells); });
+}
+
+const BoundTable& PreparedState::bound_table() const {
+  return bound_table_.get(
+      [this] { return make_bound_table(field(), grid_.width_cells, grid_.height_cells, kernels::block_cells); });
 }
 
 const WallMap& PreparedState::walls() const {
@@ -74,7 +79,8 @@ std::size_t PreparedState::memory_bytes() const {
   std::size_t bytes = grid_.cells.capacity();
   if (const auto* distances = squared_distance_cells_.if_built()) bytes += 4 * distances->capacity();
   if (const auto* field = field_.if_built()) bytes += field->capacity();
-  if (const auto* tables = tables_.if_built()) bytes += tables->memory_bytes();
+  if (const auto* tables = window_tables_.if_built()) bytes += tables->memory_bytes();
+  if (const auto* table = bound_table_.if_built()) bytes += table->memory_bytes();
   if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();
@@ -103,7 +109,8 @@ std::size_t PreparedMap::memory_bytes() const { return state_->memory_bytes(); }
 
 void PreparedMap::prepare() const {
   (void)active_isa();
-  (void)state_->tables();
+  (void)state_->window_tables();
+  (void)state_->bound_table();
   (void)state_->scene();
   (void)state_->free_mask(0.0, 1);
 }

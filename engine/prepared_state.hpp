@@ -43,7 +43,9 @@ class PreparedState {
   [[nodiscard]] const PrepareOptions& options() const { return options_; }
   [[nodiscard]] const std::vector<std::int32_t>& squared_distance_cells() const;
   [[nodiscard]] const std::vector<std::uint8_t>& field() const;
-  [[nodiscard]] const SearchTables& tables() const;
+  [[nodiscard]] const WindowTables& window_tables() const;
+  // Blocks of kernels::block_cells.
+  [[nodiscard]] const BoundTable& bound_table() const;
   [[nodiscard]] const WallMap& walls() const;
   // Walls in the map frame, ready for rays.
   [[nodiscard]] const raycast::Scene& scene() const;
@@ -57,7 +59,8 @@ class PreparedState {
   std::optional<WallMap> plan_;
   Lazy<std::vector<std::int32_t>> squared_distance_cells_;
   Lazy<std::vector<std::uint8_t>> field_;
-  Lazy<SearchTables> tables_;
+  Lazy<WindowTables> window_tables_;
+  Lazy<BoundTable> bound_table_;
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
   mutable std::mutex masks_mutex_;

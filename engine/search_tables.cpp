@@ -92,7 +92,7 @@ kernels::BoundPlanes BoundTable::planes() const {
           .last_row = rows_ - kernels::tile_rows};
 }
 
-kernels::WindowPlanes SearchTables::planes() const {
+kernels::WindowPlanes WindowTables::planes() const {
   return {.window_max = window_max.data(),
           .column_of_4 = column_of_4.data(),
           .stride = width_cells + 2 * block_cells,
@@ -100,15 +100,9 @@ kernels::WindowPlanes SearchTables::planes() const {
           .height = height_cells};
 }
 
-std::size_t SearchTables::memory_bytes() const {
-  std::size_t bytes = window_max.capacity() + 4 * column_of_4.capacity();
-  for (const BoundTable& table : bounds) bytes += table.memory_bytes();
-  return bytes;
-}
-
-SearchTables make_search_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells) {
+WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells) {
   constexpr std::size_t gather_slack = 4;  // bytes that a four-byte load may read past the last one
-  SearchTables tables{.width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_4 = {}, .bounds = {}};
+  WindowTables tables{.width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_4 = {}};
   const auto width = static_cast<std::size_t>(width_cells);
   const std::size_t stride = width + 2 * block_cells;
   const std::size_t rows = static_cast<std::size_t>(height_cells) + 2 * block_cells;
@@ -130,19 +124,14 @@ SearchTables make_search_tables(std::span<const std::uint8_t> field, int width_c
     kernels::sliding_max_8(tallest.data(), stride + block_cells, scratch.data(), slid.data());
     std::copy_n(slid.data(), stride, tables.window_max.data() + r * stride);
   });
-  std::vector<std::uint8_t> halves;
-  int cols = width_cells;
-  int half_rows = height_cells;
-  for (int cells = block_cells; cells <= 4 * block_cells; cells *= 2) {
-    const int factor = halves.empty() ? cells / BoundTable::phases : 2;
-    const int out_cols = divide_up(cols, factor);
-    const int out_rows = divide_up(half_rows, factor);
-    halves = reduce(halves.empty() ? field : std::span<const std::uint8_t>(halves), cols, half_rows, factor, out_cols, out_rows);
-    cols = out_cols;
-    half_rows = out_rows;
-    tables.bounds.emplace_back(halves, cols, half_rows, cells);
-  }
   return tables;
+}
+
+BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells, int block_cells) {
+  const int half = block_cells / BoundTable::phases;
+  const int cols = divide_up(width_cells, half);
+  const int rows = divide_up(height_cells, half);
+  return {reduce(field, width_cells, height_cells, half, cols, rows), cols, rows, block_cells};
 }
 
 }  // namespace landfall::internal

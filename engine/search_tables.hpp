@@ -45,17 +45,18 @@ class BoundTable {
   std::vector<std::uint8_t> data_;
 };
 
-struct SearchTables {
+// For blocks of 8 x 8 poses at one heading.
+struct WindowTables {
   int width_cells = 0;
   int height_cells = 0;
   std::vector<std::uint8_t> window_max;
   std::vector<std::uint32_t> column_of_4;
-  std::vector<BoundTable> bounds;  // [0]: blocks of 8 cells, [1]: of 16, [2]: of 32
 
   [[nodiscard]] kernels::WindowPlanes planes() const;
-  [[nodiscard]] std::size_t memory_bytes() const;
+  [[nodiscard]] std::size_t memory_bytes() const { return window_max.capacity() + 4 * column_of_4.capacity(); }
 };
 
-SearchTables make_search_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells);
+WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells);
+BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells, int block_cells);
 
 }  // namespace landfall::internal

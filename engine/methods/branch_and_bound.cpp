@@ -46,7 +46,7 @@ int divide_up(int a, int b) { return (a + b - 1) / b; }
 class BranchAndBound {
  public:
   explicit BranchAndBound(const Query& query)
-      : query_(query), tables_(query.map.tables()), planes_(tables_.planes()) {}
+      : query_(query), planes_(query.map.window_tables().planes()) {}
 
   Proposal run() {
     choose_groups();
@@ -160,7 +160,8 @@ class BranchAndBound {
     bounds_.resize(count * tiles_.size() * tile_blocks);
     largest_.assign(count * tiles_.size(), 0);
     unbounded_.resize(static_cast<std::size_t>(groups_));
-    const kernels::BoundPlanes planes = tables_.bounds[0].planes();
+    const BoundTable& table = query_.map.bound_table();
+    const kernels::BoundPlanes planes = table.planes();
     parallel_for(count, query_.threads, [&](std::size_t g) {
       if (query_.out_of_time()) {
         cut_short_ = true;
@@ -168,7 +169,7 @@ class BranchAndBound {
       }
       const int group = first + static_cast<int>(g);
       GroupPoints points;
-      points.build(query_.points, query_.lattice, tables_.bounds[0], first_heading(group), last_heading(group));
+      points.build(query_.points, query_.lattice, table, first_heading(group), last_heading(group));
       unbounded_[static_cast<std::size_t>(group)] = points.unbounded();
       const int threshold = points.threshold(lowest());
       for (std::size_t t = 0; t < tiles_.size(); ++t) {
@@ -318,7 +319,6 @@ class BranchAndBound {
   }
 
   const Query& query_;
-  const SearchTables& tables_;
   kernels::WindowPlanes planes_;
   int group_headings_ = 1;
   int groups_ = 0;

@@ -1,0 +1,23 @@
+// What odometry's increments are worth.
+#pragma once
+
+#include <cmath>
+
+#include "landfall/align.hpp"
+
+namespace landfall::internal {
+
+struct OdometrySigma {
+  double translation_m;
+  double rotation_rad;
+};
+
+// One sigma of the error of an increment.
+inline OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& T_before_after) {
+  const double driven_m = std::hypot(T_before_after.x_m, T_before_after.y_m);
+  return {noise.translation_m + noise.translation_relative * driven_m,
+          noise.rotation_rad + noise.rotation_per_m_rad * driven_m +
+              noise.rotation_relative * std::abs(T_before_after.theta_rad)};
+}
+
+}  // namespace landfall::internal
