@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "landfall/io.hpp"
 
@@ -24,7 +25,6 @@ namespace {
 
 using Path = std::filesystem::path;
 using Sensors = std::map<std::string, std::shared_ptr<const Sensor>>;
-using StampedTuple = std::tuple<double, Pose2>;
 
 void bind_map_files(nb::module_& module) {
   const LoadMapOptions defaults;
@@ -84,7 +84,7 @@ void bind_pose_files(nb::module_& module) {
   module.def(
       "load_trajectory",
       [](const Path& tum) {
-        std::vector<StampedTuple> poses;
+        std::vector<std::tuple<double, Pose2>> poses;
         for (const StampedPose& stamped : load_trajectory(tum))
           poses.emplace_back(stamped.stamp_s, stamped.pose);
         return poses;
@@ -92,7 +92,7 @@ void bind_pose_files(nb::module_& module) {
       "tum"_a, "(stamp_s, pose) each. Raises FileNotFound, FileFormat.");
   module.def(
       "save_trajectory",
-      [](const std::vector<StampedTuple>& poses, const Path& tum) {
+      [](const std::vector<std::tuple<double, PoseArgument>>& poses, const Path& tum) {
         std::vector<StampedPose> stamped;
         for (const auto& [stamp_s, pose] : poses) stamped.push_back({stamp_s, pose});
         save_trajectory(stamped, tum);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "landfall/mapping.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using SensorPtr = std::shared_ptr<const Sensor>;
 
-Matrix<float> ranges_array(const PreparedMap& map, const Sensor& sensor, const ArrayLike<double>& rows) {
+Matrix<float> ranges_array(const PreparedMap& map, const Sensor& sensor, const PosesArgument& rows) {
   const std::vector<Pose2> T_map_robot = poses_from(rows, "simulate_ranges");
   std::vector<float> ranges;
   {
@@ -29,7 +30,7 @@ Matrix<float> ranges_array(const PreparedMap& map, const Sensor& sensor, const A
   return adopt(std::move(ranges), T_map_robot.size(), sensor.beams.size());
 }
 
-std::vector<Scan> simulated_scans(const PreparedMap& map, SensorPtr sensor, const ArrayLike<double>& rows,
+std::vector<Scan> simulated_scans(const PreparedMap& map, SensorPtr sensor, const PosesArgument& rows,
                                   bool noise, std::uint64_t seed) {
   const std::vector<Pose2> T_map_robot = poses_from(rows, "simulate");
   const nb::gil_scoped_release released;

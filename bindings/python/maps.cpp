@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "landfall/error.hpp"
@@ -104,8 +105,10 @@ void bind_grid_map(nb::module_& module) {
       .def(
           "__init__",
           [](GridMap* self, const ArrayLike<std::uint8_t>& cells, double resolution_m,
-             const Pose2& T_map_grid) { new (self) GridMap(make_grid(cells, resolution_m, T_map_grid)); },
-          "cells"_a, "resolution_m"_a, "T_map_grid"_a = Pose2{},
+             const PoseArgument& T_map_grid) {
+            new (self) GridMap(make_grid(cells, resolution_m, T_map_grid));
+          },
+          "cells"_a, "resolution_m"_a, "T_map_grid"_a = PoseArgument{},
           "cells: (height, width) uint8, row 0 at the bottom. T_map_grid: the lower-left corner of cell\n"
           "(0, 0) and the direction of the grid's axes. Raises InvalidArgument, TooLarge.")
       .def_ro("width_cells", &GridMap::width_cells)

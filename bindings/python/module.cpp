@@ -6,9 +6,7 @@ NB_MODULE(_landfall, module) {
   using namespace landfall::python;
   module.attr("__doc__") =
       "The landfall engine: maps, scans, priors, search. Metres, radians, REP-103 frames.";
-  // The library never prints: a failed conversion is a TypeError, and what Python's caches still hold at exit
-  // is no leak.
-  nanobind::set_implicit_cast_warnings(false);
+  // The library never prints: what Python's caches (tracebacks, typing) still hold at exit is no leak.
   nanobind::set_leak_warnings(false);
   bind_errors();
   bind_poses(module);

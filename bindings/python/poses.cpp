@@ -7,8 +7,8 @@
 #include <string>
 #include <tuple>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
-#include "landfall/error.hpp"
 #include "landfall/pose2.hpp"
 
 namespace landfall::python {
@@ -38,14 +38,6 @@ double component(const Pose2& pose, int i) {
   }
 }
 
-Pose2 from_tuple(const nb::tuple& values) {
-  if (values.size() != 3) {
-    throw Error(ErrorCode::invalid_argument, "Pose2: a tuple of " + std::to_string(values.size()) +
-                                                 " values, expected (x_m, y_m, theta_rad)");
-  }
-  return {nb::cast<double>(values[0]), nb::cast<double>(values[1]), nb::cast<double>(values[2])};
-}
-
 }  // namespace
 
 void bind_poses(nb::module_& module) {
@@ -58,7 +50,7 @@ void bind_poses(nb::module_& module) {
             new (self) Pose2{x_m, y_m, theta_rad};
           },
           "x_m"_a = 0.0, "y_m"_a = 0.0, "theta_rad"_a = 0.0)
-      .def("__init__", [](Pose2* self, const nb::tuple& values) { new (self) Pose2(from_tuple(values)); })
+      .def("__init__", [](Pose2* self, const PoseArgument& pose) { new (self) Pose2(pose); })
       .def_ro("x_m", &Pose2::x_m)
       .def_ro("y_m", &Pose2::y_m)
       .def_ro("theta_rad", &Pose2::theta_rad)
@@ -81,7 +73,6 @@ void bind_poses(nb::module_& module) {
              new (&self) Pose2{std::get<0>(s), std::get<1>(s), std::get<2>(s)};
            })
       .def("__repr__", &repr);
-  nb::implicitly_convertible<nb::tuple, Pose2>();
 
   module.def("wrap_angle", &wrap_angle, "angle_rad"_a, "The same direction in (-pi, pi].");
   module.def("angle_distance", &angle_distance, "a_rad"_a, "b_rad"_a, "|wrap(a - b)|, in [0, pi].");

@@ -6,6 +6,7 @@
 #include <span>
 #include <tuple>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "landfall/error.hpp"
@@ -51,7 +52,7 @@ void bind_boxes(nb::module_& module) {
                      "A box in x and y, aligned with the map's axes, and a cone in heading.")
       .def(
           "__init__",
-          [](Window* self, const Pose2& T_map_robot, double half_x_m, double half_y_m,
+          [](Window* self, const PoseArgument& T_map_robot, double half_x_m, double half_y_m,
              double half_theta_rad) {
             init_checked(self, Window{T_map_robot, half_x_m, half_y_m, half_theta_rad});
           },
@@ -64,13 +65,13 @@ void bind_boxes(nb::module_& module) {
   nb::class_<Gaussian>(module, "Gaussian", "A Gaussian of (x_m, y_m, theta_rad); its support is three sigma.")
       .def(
           "__init__",
-          [](Gaussian* self, const Pose2& T_map_robot, const ArrayLike<double>& covariance) {
+          [](Gaussian* self, const PoseArgument& T_map_robot, const ArrayLike<double>& covariance) {
             init_checked(self, gaussian_from_matrix(T_map_robot, covariance));
           },
           "T_map_robot"_a, "covariance"_a, "covariance: (3, 3). Raises InvalidArgument.")
       .def(
           "__init__",
-          [](Gaussian* self, const Pose2& T_map_robot, double sigma_xy_m, double sigma_theta_rad) {
+          [](Gaussian* self, const PoseArgument& T_map_robot, double sigma_xy_m, double sigma_theta_rad) {
             init_checked(self, gaussian_from_sigmas(T_map_robot, sigma_xy_m, sigma_theta_rad));
           },
           "T_map_robot"_a, nb::kw_only(), "sigma_xy_m"_a, "sigma_theta_rad"_a)
@@ -120,7 +121,7 @@ void bind_lists(nb::module_& module) {
   nb::class_<CandidatePoses>(module, "CandidatePoses", "Each pose stands for the lattice pose nearest to it.")
       .def(
           "__init__",
-          [](CandidatePoses* self, const ArrayLike<double>& poses) {
+          [](CandidatePoses* self, const PosesArgument& poses) {
             init_checked(self, CandidatePoses{poses_from(poses, "CandidatePoses")});
           },
           "T_map_robot"_a, "T_map_robot: a list of poses, or an array (n, 3). Raises InvalidArgument.")
@@ -128,35 +129,22 @@ void bind_lists(nb::module_& module) {
 }
 
 void bind_mixture(nb::module_& module) {
-  // Declared first: Mixture's constructor takes it, and every kind converts to it.
-  nb::class_<PosePrior> prior(module, "PosePrior", "Any of the priors; every kind converts to it.");
+  // Declared first: Mixture takes it.
+  nb::class_<PosePrior> prior(module, "PosePrior", "A prior of any kind.");
   nb::class_<Mixture>(module, "Mixture",
                       "Weighted priors. Weights multiply the likelihood in `probability`, never `score`.")
       .def(
           "__init__",
-          [](Mixture* self, std::vector<double> weights, std::vector<PosePrior> components) {
-            init_checked(self, Mixture{std::move(weights), std::move(components)});
+          [](Mixture* self, std::vector<double> weights, const std::vector<PriorArgument>& components) {
+            init_checked(self, Mixture{std::move(weights), {components.begin(), components.end()}});
           },
           "weights"_a, "components"_a, "Raises InvalidArgument.")
       .def_ro("weights", &Mixture::weights)
       .def_prop_ro("components", [](const Mixture& self) { return self.components; });
-  prior.def("__init__", [](PosePrior* self, const Anywhere& kind) { new (self) PosePrior{kind}; })
-      .def("__init__", [](PosePrior* self, const Window& kind) { new (self) PosePrior{kind}; })
-      .def("__init__", [](PosePrior* self, const Gaussian& kind) { new (self) PosePrior{kind}; })
-      .def("__init__", [](PosePrior* self, const Region& kind) { new (self) PosePrior{kind}; })
-      .def("__init__", [](PosePrior* self, const Beacons& kind) { new (self) PosePrior{kind}; })
-      .def("__init__", [](PosePrior* self, const CandidatePoses& kind) { new (self) PosePrior{kind}; })
-      .def("__init__", [](PosePrior* self, const Mixture& kind) { new (self) PosePrior{kind}; })
+  prior.def("__init__", [](PosePrior* self, const PriorArgument& kind) { new (self) PosePrior(kind); })
       .def_prop_ro("kind", [](const PosePrior& self) {
         return std::visit([](const auto& kind) { return nb::cast(kind); }, self.kind);
       });
-  nb::implicitly_convertible<Anywhere, PosePrior>();
-  nb::implicitly_convertible<Window, PosePrior>();
-  nb::implicitly_convertible<Gaussian, PosePrior>();
-  nb::implicitly_convertible<Region, PosePrior>();
-  nb::implicitly_convertible<Beacons, PosePrior>();
-  nb::implicitly_convertible<CandidatePoses, PosePrior>();
-  nb::implicitly_convertible<Mixture, PosePrior>();
 }
 
 }  // namespace

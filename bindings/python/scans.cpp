@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "landfall/align.hpp"
@@ -28,7 +29,7 @@ std::vector<float> copy_ranges(const ArrayLike<float>& ranges) {
 }
 
 void init_scan(Scan* self, SensorPtr sensor, const ArrayLike<float>& ranges_m, double stamp_s,
-               std::optional<Pose2> T_odom_robot, std::optional<Pose2> T_map_robot) {
+               std::optional<PoseArgument> T_odom_robot, std::optional<PoseArgument> T_map_robot) {
   Scan scan{.sensor = std::move(sensor),
             .ranges_m = copy_ranges(ranges_m),
             .stamp_s = stamp_s,
@@ -71,11 +72,11 @@ void bind_sensor(nb::module_& module) {
   nb::class_<Beam>(module, "Beam", "One beam of a sensor: mount pose in the robot frame, half-angle, limits.")
       .def(
           "__init__",
-          [](Beam* self, const Pose2& T_robot_beam, double half_angle_rad, double range_min_m,
+          [](Beam* self, const PoseArgument& T_robot_beam, double half_angle_rad, double range_min_m,
              double range_max_m) {
             new (self) Beam{T_robot_beam, half_angle_rad, range_min_m, range_max_m};
           },
-          "T_robot_beam"_a = Pose2{}, "half_angle_rad"_a = beam.half_angle_rad,
+          "T_robot_beam"_a = PoseArgument{}, "half_angle_rad"_a = beam.half_angle_rad,
           "range_min_m"_a = beam.range_min_m, "range_max_m"_a = beam.range_max_m)
       .def_ro("T_robot_beam", &Beam::T_robot_beam)
       .def_ro("half_angle_rad", &Beam::half_angle_rad, "0: a ray; a cone of 12 degrees has 6 here.")
@@ -108,9 +109,9 @@ void bind_sensor(nb::module_& module) {
   const FanOptions fan;
   module.def(
       "make_fan",
-      [](int beams, double first_rad, double step_rad, const std::string& name, const Pose2& T_robot_sensor,
-         double half_angle_rad, double range_min_m, double range_max_m, double range_noise_m,
-         double range_noise_relative) {
+      [](int beams, double first_rad, double step_rad, const std::string& name,
+         const PoseArgument& T_robot_sensor, double half_angle_rad, double range_min_m, double range_max_m,
+         double range_noise_m, double range_noise_relative) {
         return make_fan({.name = name,
                          .beams = beams,
                          .first_rad = first_rad,
@@ -123,7 +124,7 @@ void bind_sensor(nb::module_& module) {
                          .range_noise_relative = range_noise_relative});
       },
       "beams"_a, "first_rad"_a, "step_rad"_a, nb::kw_only(), "name"_a = fan.name,
-      "T_robot_sensor"_a = fan.T_robot_sensor, "half_angle_rad"_a = fan.half_angle_rad,
+      "T_robot_sensor"_a = PoseArgument{fan.T_robot_sensor}, "half_angle_rad"_a = fan.half_angle_rad,
       "range_min_m"_a = fan.range_min_m, "range_max_m"_a = fan.range_max_m,
       "range_noise_m"_a = fan.range_noise_m, "range_noise_relative"_a = fan.range_noise_relative,
       "An evenly spaced fan: beam i points to first_rad + i * step_rad in the mount's frame.");
@@ -139,8 +140,12 @@ void bind_scan(nb::module_& module) {
       .def_prop_ro("sensor", [](const Scan& scan) { return scan.sensor; })
       .def_prop_rw("ranges_m", &ranges_of, &assign_ranges, "(beams,) float32, a writable view without copy.")
       .def_rw("stamp_s", &Scan::stamp_s)
-      .def_rw("T_odom_robot", &Scan::T_odom_robot, nb::arg().none())
-      .def_rw("T_map_robot", &Scan::T_map_robot, nb::arg().none())
+      .def_prop_rw(
+          "T_odom_robot", [](const Scan& scan) { return scan.T_odom_robot; },
+          [](Scan& scan, std::optional<PoseArgument> pose) { scan.T_odom_robot = pose; }, nb::arg().none())
+      .def_prop_rw(
+          "T_map_robot", [](const Scan& scan) { return scan.T_map_robot; },
+          [](Scan& scan, std::optional<PoseArgument> pose) { scan.T_map_robot = pose; }, nb::arg().none())
       .def("points_robot", &points_robot,
            "(echoes, 2) float64: where the beams that hit something ended, in the robot frame.")
       .def("count_valid", &count_valid)
@@ -153,11 +158,12 @@ void bind_scan(nb::module_& module) {
 
   module.def(
       "merge",
-      [](const std::vector<Scan>& scans, const std::optional<std::vector<Pose2>>& T_common_robot,
+      [](const std::vector<Scan>& scans, const std::optional<PosesArgument>& T_common_robot,
          std::optional<std::size_t> reference) {
-        const nb::gil_scoped_release released;
         if (!T_common_robot) return merge(scans);
-        return merge(scans, *T_common_robot, reference.value_or(scans.empty() ? 0 : scans.size() - 1));
+        const std::vector<Pose2> poses = poses_from(*T_common_robot, "merge");
+        const nb::gil_scoped_release released;
+        return merge(scans, poses, reference.value_or(scans.empty() ? 0 : scans.size() - 1));
       },
       "scans"_a, "T_common_robot"_a = nb::none(), "reference"_a = nb::none(),
       "One scan with the beams of all, seen from scan `reference` (the last by default) and under its "

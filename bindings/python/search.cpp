@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "arguments.hpp"
+#include "arrays.hpp"
 #include "bindings.hpp"
 #include "landfall/consistent.hpp"
 #include "landfall/search.hpp"
@@ -39,9 +41,11 @@ void bind_search(nb::module_& module) {
   bind_options(module);
   module.def(
       "search_batch",
-      [](const std::vector<PreparedMap>& maps, const std::vector<PosePrior>& priors,
-         const std::vector<Scan>& scans,
-         const SearchOptions& options) { return search(maps, priors, scans, options); },
+      [](const std::vector<PreparedMap>& maps, const std::vector<PriorArgument>& given,
+         const std::vector<Scan>& scans, const SearchOptions& options) {
+        const std::vector<PosePrior> priors(given.begin(), given.end());
+        return search(maps, priors, scans, options);
+      },
       "maps"_a, "priors"_a, "scans"_a, "options"_a, nb::call_guard<nb::gil_scoped_release>(),
       "results[i] answers scans[i]; one prior for all scans, or one per scan. landfall.search() is the\n"
       "friendlier form.");
@@ -49,13 +53,14 @@ void bind_search(nb::module_& module) {
   const ConsistentOptions defaults;
   module.def(
       "consistent",
-      [](const std::vector<SearchResult>& results, const std::vector<Pose2>& T_odom_robot,
+      [](const std::vector<SearchResult>& results, const PosesArgument& T_odom_robot,
          const OdometryNoise& odometry, double jump_probability) {
-        return consistent(results, T_odom_robot,
-                          {.odometry = odometry, .jump_probability = jump_probability});
+        const std::vector<Pose2> poses = poses_from(T_odom_robot, "consistent");
+        const nb::gil_scoped_release released;
+        return consistent(results, poses, {.odometry = odometry, .jump_probability = jump_probability});
       },
       "results"_a, "T_odom_robot"_a, nb::kw_only(), "odometry"_a = defaults.odometry,
-      "jump_probability"_a = defaults.jump_probability, nb::call_guard<nb::gil_scoped_release>(),
+      "jump_probability"_a = defaults.jump_probability,
       "Per result the index of the hypothesis that odometry ties to its neighbours' (Viterbi), or -1 where\n"
       "it has none. Raises InvalidArgument where the lengths differ.");
 

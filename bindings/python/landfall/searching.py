@@ -78,7 +78,7 @@ def search(map, prior, scans, **options):  # type: ignore[no-untyped-def]
     """
     one = isinstance(scans, Scan)
     maps = [_prepared(m) for m in (map if isinstance(map, Sequence) else [map])]
-    priors = [_prior(p) for p in (prior if isinstance(prior, Sequence) else [prior])]
+    priors = [Anywhere() if p is None else p for p in (prior if isinstance(prior, Sequence) else [prior])]
     results = search_batch(maps, priors, [scans] if one else list(scans), search_options(**options))
     return results[0] if one else results
 
@@ -99,9 +99,3 @@ def search_options(**keywords: object) -> SearchOptions:
 
 def _prepared(map: Map) -> PreparedMap:
     return map if isinstance(map, PreparedMap) else PreparedMap(map)
-
-
-def _prior(prior: Prior) -> PosePrior:
-    if isinstance(prior, PosePrior):
-        return prior
-    return PosePrior(Anywhere() if prior is None else prior)

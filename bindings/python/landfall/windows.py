@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from landfall._landfall import Scan, align, merge, translation_distance
+from landfall._landfall import Pose2, Scan, align, merge, translation_distance
 from landfall.errors import InvalidArgument
 
 
@@ -80,10 +80,15 @@ def with_motion(log: Sequence[Scan], queries: Sequence[Query], min_motion_m: flo
 
 def path_length_m(scans: Sequence[Scan]) -> float:
     """Length of odometry's path. Raises InvalidArgument where a scan has no odometry."""
-    poses = [scan.T_odom_robot for scan in scans]
-    if any(pose is None for pose in poses):
-        raise InvalidArgument("windows with motion need odometry, which this log does not have")
-    return math.fsum(translation_distance(a, b) for a, b in itertools.pairwise(poses))
+    return math.fsum(translation_distance(a, b) for a, b in itertools.pairwise(odometry(scans)))
+
+
+def odometry(scans: Sequence[Scan]) -> list[Pose2]:
+    """T_odom_robot of each scan. Raises InvalidArgument where one has none."""
+    poses = [scan.T_odom_robot for scan in scans if scan.T_odom_robot is not None]
+    if len(poses) < len(scans):
+        raise InvalidArgument(f"{len(scans) - len(poses)} of {len(scans)} scans have no odometry")
+    return poses
 
 
 def _spread(first: int, last: int, max_scans: int) -> list[int]:

@@ -33,7 +33,15 @@ from landfall.outputs import ResultsFile, add_chosen, make_folder, require_folde
 from landfall.progress import progress_bar
 from landfall.relocalization import Answers, Question, relocalize
 from landfall.searching import search_options
-from landfall.windows import Composition, Query, scan_windows, single_queries, time_windows, with_motion
+from landfall.windows import (
+    Composition,
+    Query,
+    odometry,
+    scan_windows,
+    single_queries,
+    time_windows,
+    with_motion,
+)
 
 
 def run(
@@ -137,8 +145,8 @@ def _scans(path: Path, log: Log, need_odometry: bool) -> list[Scan]:
         typer.echo(f"landfall: warning: {warning}", err=True)
     if not scans:
         raise InvalidArgument(f"{path}: no scans")
-    if need_odometry and any(scan.T_odom_robot is None for scan in scans):
-        raise InvalidArgument(f"{path}: --consistent needs odometry with every scan")
+    if need_odometry:
+        odometry(scans)  # said before the work, not after
     return scans
 
 
@@ -166,7 +174,7 @@ def _queries(
 def _choose(answers: Answers, scans: list[Scan], results: Path | None) -> None:
     """The most probable sequence of hypotheses, in place of each query's first."""
     kept = [answers.kept[position] for position in range(len(answers.queries))]
-    choices = consistent(kept, [scans[query.last].T_odom_robot for query in answers.queries])
+    choices = consistent(kept, odometry([scans[query.last] for query in answers.queries]))
     answers.choose(choices)
     if results is not None:
         add_chosen(results, choices)
