@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "engine/io/carmen_line.hpp"
@@ -31,14 +32,19 @@ class CarmenReader {
 
   Log read() {
     Lines lines(source_.text);
-    for (std::string_view line; lines.next(line);) {
-      Words words(line);
+    for (std::string_view text; lines.next(text);) {
+      Words words(text);
       const std::string_view kind = words.next();
-      for (const Message& message : messages)
-        if (kind == message.kind)
-          (this->*message.read)(CarmenLine(kind, words, {source_.file, lines.number()}), words);
+      const auto message =
+          std::find_if(messages.begin(), messages.end(), [kind](const Message& m) { return m.kind == kind; });
+      if (message == messages.end()) continue;
+      CarmenLine line(kind, words, {source_.file, lines.number()});
+      (this->*message->read)(line);
     }
     drop_raw_scans();
+    for (const auto& [what, lines_of] : passed_over_)
+      log_.warnings.push_back(to_string(lines_of.first) + ": " + what + ", " +
+                              std::to_string(lines_of.count) + (lines_of.count == 1 ? " line" : " lines"));
     if (log_.scans.empty())
       fail_format({source_.file}, "", "no scan", "a FLASER, RLASER, ROBOTLASER, RAWLASER or SONAR line");
     return std::move(log_);
@@ -47,23 +53,23 @@ class CarmenReader {
  private:
   struct Message {
     std::string_view kind;
-    void (CarmenReader::*read)(CarmenLine line, Words words);
+    void (CarmenReader::*read)(CarmenLine& line);
   };
   static const std::array<Message, 9> messages;
 
-  void read_param(CarmenLine line, Words words) { params_.read(words, line.place()); }
-  void read_odometry(CarmenLine line, Words /*words*/) { T_odom_robot_ = line.pose("x y theta"); }
-  void read_front(CarmenLine line, Words /*words*/) { read_laser(line, params_.front); }
-  void read_rear(CarmenLine line, Words /*words*/) { read_laser(line, params_.rear); }
-  void read_robot_front(CarmenLine line, Words /*words*/) { read_robot_laser(line, params_.front); }
-  void read_robot_rear(CarmenLine line, Words /*words*/) { read_robot_laser(line, params_.rear); }
-  void read_raw_front(CarmenLine line, Words /*words*/) { read_raw_laser(line, params_.front); }
-  void read_raw_rear(CarmenLine line, Words /*words*/) { read_raw_laser(line, params_.rear); }
+  void read_param(CarmenLine& line) { params_.read(line.rest(), line.place()); }
+  void read_odometry(CarmenLine& line) { T_odom_robot_ = line.pose("x y theta"); }
+  void read_front(CarmenLine& line) { read_laser(line, params_.front); }
+  void read_rear(CarmenLine& line) { read_laser(line, params_.rear); }
+  void read_robot_front(CarmenLine& line) { read_robot_laser(line, params_.front); }
+  void read_robot_rear(CarmenLine& line) { read_robot_laser(line, params_.rear); }
+  void read_raw_front(CarmenLine& line) { read_raw_laser(line, params_.front); }
+  void read_raw_rear(CarmenLine& line) { read_raw_laser(line, params_.rear); }
 
   // n ranges, the laser's pose, the robot's odometry, time stamp.
   void read_laser(CarmenLine& line, const CarmenLaser& laser) {
     const int beams = line.count("number of readings");
-    if (beams == 0) return warn(line.place(), laser.name + " line without readings");
+    if (beams == 0) return pass_over(line.place(), laser.name + ": no readings");
     Scan scan;
     scan.ranges_m = line.ranges(beams, 7);
     const Pose2 T_map_laser = line.pose("x y theta");
@@ -91,7 +97,7 @@ class CarmenReader {
   void read_robot_laser(CarmenLine& line, CarmenLaser& laser) {
     const LaserConfig config = read_config(line);
     const int beams = line.count("number of readings");
-    if (beams == 0) return warn(line.place(), laser.name + " line without readings");
+    if (beams == 0) return pass_over(line.place(), laser.name + ": no readings");
     Scan scan;
     scan.ranges_m = line.ranges(beams, -1);
     line.skip(line.count("number of remissions"), "remission");
@@ -110,7 +116,7 @@ class CarmenReader {
   void read_raw_laser(CarmenLine& line, const CarmenLaser& laser) {
     const LaserConfig config = read_config(line);
     const int beams = line.count("number of readings");
-    if (beams == 0) return warn(line.place(), laser.name + " line without readings");
+    if (beams == 0) return pass_over(line.place(), laser.name + ": no readings");
     Scan scan;
     scan.ranges_m = line.ranges(beams, -1);
     line.skip(line.count("number of remissions"), "remission");
@@ -123,12 +129,12 @@ class CarmenReader {
 
   // cone_angle n ranges, n offsets x y theta, time stamp; or n ranges, time stamp, with the offsets in
   // a PARAM line before. CARMEN prints the cone's angle with a point, the number without.
-  void read_sonar(CarmenLine line, Words /*words*/) {
+  void read_sonar(CarmenLine& line) {
     const bool with_offsets = line.peek().find('.') != std::string_view::npos;
     const double half_angle_rad =
         with_offsets ? 0.5 * line.number("cone_angle") : default_sonar_half_angle_rad;
     const int sonars = line.count("number of sonars");
-    if (sonars == 0) return warn(line.place(), "SONAR line without readings");
+    if (sonars == 0) return pass_over(line.place(), "SONAR: no readings");
     Scan scan;
     scan.ranges_m = line.ranges(sonars, -1);
     std::vector<Pose2> T_robot_sonar = params_.T_robot_sonar;
@@ -140,9 +146,9 @@ class CarmenReader {
     scan.T_odom_robot = T_odom_robot_;
     scan.sensor = sensors_.replacement("sonar", scan.ranges_m.size(), line.place());
     if (!scan.sensor && T_robot_sonar.size() != scan.ranges_m.size())
-      return warn(line.place(),
-                  "SONAR line passed over: the log does not say where its sonars are (no "
-                  "robot_sonar_offsets for each), give a sensor 'sonar'");
+      return pass_over(line.place(),
+                       "SONAR: the log does not say where its sonars are (no "
+                       "robot_sonar_offsets for each), give a sensor 'sonar'");
     if (!scan.sensor)
       scan.sensor = sensors_.sonar_ring(T_robot_sonar, half_angle_rad, params_.sonar_max_m, line.place());
     log_.scans.push_back(std::move(scan));
@@ -159,14 +165,12 @@ class CarmenReader {
                         place);
   }
 
-  // Without an offset PARAM the first line's two poses tell where the laser sits; later ones may differ
-  // by rounding, or because the laser's poses alone were corrected.
+  // The first line's two poses tell where the laser sits; later ones may differ by rounding, or because
+  // the laser's poses alone were corrected.
   static void take_mount(CarmenLaser& laser, const Pose2& T_robot_laser) {
-    if (laser.offset_m) return;
+    if (laser.mount_of_poses) return;
     const bool on_robot = std::hypot(T_robot_laser.x_m, T_robot_laser.y_m) <= max_mount_m;
-    laser.offset_m = on_robot ? T_robot_laser.x_m : 0.0;
-    laser.side_offset_m = on_robot ? T_robot_laser.y_m : 0.0;
-    if (on_robot) laser.angular_offset_rad = T_robot_laser.theta_rad;
+    laser.mount_of_poses = on_robot ? T_robot_laser : landfall::io::T_robot_laser(laser);
   }
 
   // CARMEN logs a laser's readings twice, raw and with the robot's pose: the latter are kept.
@@ -180,10 +184,14 @@ class CarmenReader {
     log_.warnings.push_back(source_.file + ": RAWLASER lines passed over: the log repeats them with poses");
   }
 
-  void warn(const Place& place, const std::string& what) {
-    log_.warnings.push_back(to_string(place) + ": " + what);
+  void pass_over(const Place& place, const std::string& what) {
+    ++passed_over_.try_emplace(what, PassedOver{.first = place}).first->second.count;
   }
 
+  struct PassedOver {
+    Place first;
+    int count = 0;
+  };
   struct RawScan {
     std::size_t index = 0;
     bool rear = false;
@@ -194,6 +202,7 @@ class CarmenReader {
   CarmenSensors sensors_;
   std::optional<Pose2> T_odom_robot_;
   Log log_;
+  std::map<std::string, PassedOver> passed_over_;
   std::vector<RawScan> raw_scans_;
   std::array<bool, 2> seen_with_pose_{};  // front, rear
 };

@@ -26,8 +26,7 @@ class CarmenLine {
 
   // The word that comes next.
   [[nodiscard]] std::string_view peek() const { return Words(words_).next(); }
-  // How many numbers come next.
-  [[nodiscard]] int numbers_ahead() const { return numbers_ahead(words_); }
+  [[nodiscard]] Words rest() const { return words_; }
   [[nodiscard]] const Place& place() const { return place_; }
 
  private:

@@ -69,6 +69,7 @@ std::shared_ptr<const Sensor> checked(Make make, const Place& place) {
 }  // namespace
 
 Pose2 T_robot_laser(const CarmenLaser& laser) {
+  if (!laser.offset_m && laser.mount_of_poses) return *laser.mount_of_poses;
   // Logs give the rear laser's offset with either sign: it is behind the centre.
   const double offset_m = laser.offset_m.value_or(0.0);
   return {.x_m = laser.rear ? -std::abs(offset_m) : offset_m,
@@ -122,15 +123,16 @@ std::shared_ptr<const Sensor> CarmenSensors::sonar_ring(const std::vector<Pose2>
   auto given = replacement("sonar", T_robot_sonar.size(), place);
   if (given) return given;
   std::vector<double> key = {half_angle_rad, range_max_m};
-  for (const Pose2& T : T_robot_sonar) key.insert(key.end(), {T.x_m, T.y_m, T.theta_rad});
+  for (const Pose2& mount : T_robot_sonar) key.insert(key.end(), {mount.x_m, mount.y_m, mount.theta_rad});
   auto& sensor = made_["sonar"][key];
   if (!sensor) {
     Sensor ring{.name = "sonar",
                 .beams = {},
                 .range_noise_m = sonar_noise_m,
                 .range_noise_relative = sonar_noise_relative};
-    for (const Pose2& T : T_robot_sonar)
-      ring.beams.push_back({.T_robot_beam = T, .half_angle_rad = half_angle_rad, .range_max_m = range_max_m});
+    for (const Pose2& mount : T_robot_sonar)
+      ring.beams.push_back(
+          {.T_robot_beam = mount, .half_angle_rad = half_angle_rad, .range_max_m = range_max_m});
     sensor = checked([&] { return ring; }, place);
   }
   return sensor;

@@ -24,9 +24,11 @@ struct CarmenLaser {
       std::nullopt;  // ahead of the robot's centre (behind it for the rear laser)
   double side_offset_m = 0.0;
   std::optional<double> angular_offset_rad = std::nullopt;
+  std::optional<Pose2> mount_of_poses =
+      std::nullopt;  // from a line that gives the robot's pose and the laser's
 };
 
-// Where the laser sits: the offset PARAM, or the centre; a rear laser looks backwards.
+// Where the laser sits: by PARAM, else as its poses show, else in the centre; a rear laser looks backwards.
 Pose2 T_robot_laser(const CarmenLaser& laser);
 // CARMEN's rule for logs without a resolution: a SICK's 180 degrees, or its 100-degree mode.
 double guess_step_rad(int beams);

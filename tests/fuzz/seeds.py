@@ -6,7 +6,13 @@ import struct
 import zlib
 from pathlib import Path
 
-MAP_YAML = b"image: a.pgm\nresolution: 0.05\norigin: [-1, 2.5, 0.1]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+MAP_YAML = b"""image: a.pgm
+resolution: 0.05
+origin: [-1, 2.5, 0.1]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
 LASER_CONFIG = "0 -1.570796 3.141593 1.570796 30.0 0.01 0"
 CARMEN = f"""# CARMEN Logfile
 PARAM robot_front_laser_max 50.0 host 0
@@ -82,7 +88,10 @@ def seeds():
         "log": [CARMEN.encode(), gzip.compress(CARMEN.encode()), SCAN_LINES.encode(), CORRIDOR8, SCITOS24],
         "prior": [json.dumps(prior).encode() for prior in PRIORS],
         "scan_lines": [SCAN_LINES.encode()],
-        "sensor": [sensor.encode(), b"sensors:\n  - {name: a, beams: [" + json.dumps(BEAM).encode() + b"]}\n"],
+        "sensor": [
+            sensor.encode(),
+            b"sensors:\n  - {name: a, beams: [" + json.dumps(BEAM).encode() + b"]}\n",
+        ],
         "sonar_tables": [CORRIDOR8 + b"\x002000 1500 -250 900\n2500 0 0 -1800\n", SCITOS24],
         "trajectory": [b"# t tx ty tz qx qy qz qw\n1.5 1 2 0 0 0 0.70710678 0.70710678\n2 0 0 0 0 0 1 0\n"],
         "wall_plan": [b'{"units": "cm", "walls": [[1, 2, 3, -4], [0.5, 1e3, 2, 2]]}'],

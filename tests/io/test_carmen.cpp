@@ -126,6 +126,22 @@ TEST_F(Carmen, MountIsKeptWhereLaserPosesAloneAreCorrected) {
   expect_pose(*log.scans[1].T_map_robot, {.x_m = 7, .y_m = 2});
 }
 
+TEST_F(Carmen, RearRobotLaserMayEvenSitAhead) {
+  const Log log =
+      load("ROBOTLASER2 0 0 1 0.5 30.0 0.01 0 1 1 0 5.1 1 3.14159265358979 5 1 0 0 0 0 0 0 7.25 host 7.3\n");
+  EXPECT_EQ(log.scans.at(0).sensor->name, "rear_laser");
+  expect_pose(log.scans[0].sensor->beams[0].T_robot_beam, {.x_m = 0.1, .theta_rad = pi});
+}
+
+TEST_F(Carmen, LinesWithoutReadingsArePassedOverWithOneWarning) {
+  const std::string none = "FLASER 0 0 0 0 0 0 0 1 host 1\n";
+  const Log log = load("SONAR 0 1 host 1\n" + none + none + "FLASER 1 2" + poses);
+  EXPECT_EQ(log.scans.size(), 1U);
+  EXPECT_THAT(log.warnings, ::testing::UnorderedElementsAre(
+                                ::testing::HasSubstr("drive.log:1: SONAR: no readings, 1 line"),
+                                ::testing::HasSubstr("drive.log:2: front_laser: no readings, 2 lines")));
+}
+
 TEST_F(Carmen, RawLaserTakesTheLatestOdometry) {
   const std::string raw = "RAWLASER1 0 -1.0 2.0 0.5 30.0 0.01 0 3 1 2 3 0 7.25 host 7.3\n";
   const Log log = load(raw + "ODOM 1 2 3 0 0 0 7 host 7\n" + raw);

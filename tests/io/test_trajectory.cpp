@@ -38,10 +38,11 @@ TEST_F(Trajectory, SmallTiltIsLaidFlat) {
 }
 
 TEST_F(Trajectory, SavedPosesReadBack) {
-  std::vector<StampedPose> poses;
+  std::vector<StampedPose> poses(100);
   for (int i = 0; i < 100; ++i)
-    poses.push_back({.stamp_s = 976052892.4424 + 0.1 * i,
-                     .pose = {.x_m = i / 7.0, .y_m = -i / 3.0, .theta_rad = wrap_angle(0.1 * i)}});
+    poses[static_cast<std::size_t>(i)] = {
+        .stamp_s = 976052892.4424 + 0.1 * i,
+        .pose = {.x_m = i / 7.0, .y_m = -i / 3.0, .theta_rad = wrap_angle(0.1 * i)}};
   save_trajectory(poses, at("poses.tum"));
   const auto back = load_trajectory(at("poses.tum"));
   ASSERT_EQ(back.size(), poses.size());

@@ -3,20 +3,20 @@
 // and renames. Formats: docs/formats.md.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
-#include <iosfwd>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "landfall/grid_map.hpp"
+#include "landfall/prepared_map.hpp"
 #include "landfall/prior.hpp"
 #include "landfall/scan.hpp"
 #include "landfall/search.hpp"
+#include "landfall/sensor.hpp"
 #include "landfall/wall_map.hpp"
 
 namespace landfall {
@@ -46,12 +46,13 @@ struct LoadLogOptions {
 };
 struct Log {
   std::vector<Scan> scans;
-  std::vector<std::string> warnings;  // lines that were passed over, with file and line
+  std::vector<std::string> warnings;  // readings that were passed over, with file, line and reason
 };
 // CARMEN text (.log, .clf, gzipped or not), scan lines (.jsonl, gzipped or not), sonar tables
-// (corridor8_ranges.txt with corridor8_poses.txt beside it; scitos24 csv): told by content.
+// (corridor8_ranges.txt with corridor8_poses.txt beside it; scitos24 csv): told by content. Scans of one
+// geometry share their sensor.
 Log load_log(const std::filesystem::path& path, const LoadLogOptions& options = {});
-// Scan lines: each sensor once, then one line per scan.
+// Scan lines: each sensor before its first scan, then one line per scan. Gzipped where it ends in .gz.
 void save_log(std::span<const Scan> scans, const std::filesystem::path& jsonl);
 
 struct StampedPose {
