@@ -11,10 +11,10 @@ import numpy as np
 from landfall._landfall import Pose2, PosePrior, PreparedMap, Scan, SearchOptions, SearchResult, search_batch
 from landfall.interrupts import CleanStop
 from landfall.outputs import ResultsFile
-from landfall.windows import Composition, Query
+from landfall.windows import Composition, Query, compose
 
-CHUNK_S = 0.3  # work between two looks at the clock: the bar moves and Ctrl-C is answered
-MAX_CHUNK = 256
+CHUNK_S = 1.0  # work between two looks at the clock: the bar moves and Ctrl-C is answered
+MAX_CHUNK = 4096
 
 
 @dataclass
@@ -28,7 +28,7 @@ class Question:
     composition: Composition = field(default_factory=Composition)
 
     def ask(self, log: Sequence[Scan], queries: Sequence[Query]) -> list[SearchResult]:
-        scans = [q.scan(log, self.composition) for q in queries]
+        scans = compose(log, queries, self.composition)
         if not self.one_at_a_time:
             return search_batch(self.maps, [self.prior], scans, self.options)
         return [search_batch(self.maps, [self.prior], [scan], self.options)[0] for scan in scans]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
+import os
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from landfall._landfall import Pose2, Scan, align, merge, translation_distance
@@ -35,7 +37,14 @@ class Query:
         if not composition.aligned:
             return merge(members)
         reference = len(members) - 1
-        return merge(members, align(members, reference, threads=composition.threads), reference)
+        return merge(members, align(members, reference, threads=1), reference)
+
+
+def compose(log: Sequence[Scan], queries: Sequence[Query], composition: Composition) -> list[Scan]:
+    """The scan of each query, in order; windows are put together side by side, each on one thread."""
+    threads = composition.threads or os.cpu_count()
+    with ThreadPoolExecutor(threads) as pool:  # align and merge release the GIL
+        return list(pool.map(lambda query: query.scan(log, composition), queries))
 
 
 def single_queries(count: int, every: int = 1) -> list[Query]:
