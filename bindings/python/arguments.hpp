@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <tuple>
+#include <utility>
 
 #include "arrays.hpp"
 #include "landfall/pose2.hpp"
@@ -64,15 +65,19 @@ struct nanobind::detail::type_caster<landfall::python::PriorArgument> {
                             Caster<landfall::CandidatePoses>::Name, Caster<landfall::Mixture>::Name))
 
   bool from_python(handle source, std::uint8_t, cleanup_list*) noexcept {
-    return try_cast(source, static_cast<landfall::PosePrior&>(value)) || is<landfall::Anywhere>(source) ||
-           is<landfall::Window>(source) || is<landfall::Gaussian>(source) || is<landfall::Region>(source) ||
-           is<landfall::Beacons>(source) || is<landfall::CandidatePoses>(source) ||
-           is<landfall::Mixture>(source);
+    try {
+      return try_cast(source, static_cast<landfall::PosePrior&>(value)) || is<landfall::Anywhere>(source) ||
+             is<landfall::Window>(source) || is<landfall::Gaussian>(source) || is<landfall::Region>(source) ||
+             is<landfall::Beacons>(source) || is<landfall::CandidatePoses>(source) ||
+             is<landfall::Mixture>(source);
+    } catch (...) {  // copying a prior may run out of memory
+      return false;
+    }
   }
 
  private:
   template <class Kind>
-  bool is(handle source) noexcept {
+  bool is(handle source) {
     Kind kind;
     if (!try_cast(source, kind)) return false;
     value.kind = std::move(kind);

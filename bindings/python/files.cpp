@@ -94,6 +94,7 @@ void bind_pose_files(nb::module_& module) {
       "save_trajectory",
       [](const std::vector<std::tuple<double, PoseArgument>>& poses, const Path& tum) {
         std::vector<StampedPose> stamped;
+        stamped.reserve(poses.size());
         for (const auto& [stamp_s, pose] : poses) stamped.push_back({stamp_s, pose});
         save_trajectory(stamped, tum);
       },

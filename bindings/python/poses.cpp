@@ -1,5 +1,4 @@
 // Pose2: immutable, a sequence (x_m, y_m, theta_rad), made from any such tuple.
-#include <nanobind/operators.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 
@@ -57,7 +56,9 @@ void bind_poses(nb::module_& module) {
       .def("inverse", &inverse, "T_b_a of T_a_b.")
       .def(
           "__mul__", [](const Pose2& T_a_b, const Pose2& T_b_c) { return T_a_b * T_b_c; }, nb::is_operator())
-      .def(nb::self == nb::self, nb::sig("def __eq__(self, arg: object, /) -> bool"))
+      .def(
+          "__eq__", [](const Pose2& a, const Pose2& b) { return a == b; }, nb::is_operator(),
+          nb::sig("def __eq__(self, arg: object, /) -> bool"))
       .def("__hash__",
            [](const Pose2& pose) { return nb::hash(nb::make_tuple(pose.x_m, pose.y_m, pose.theta_rad)); })
       .def("__len__", [](const Pose2&) { return 3; })

@@ -95,6 +95,8 @@ def test_scan_without_valid_beam_is_lost_and_the_rest_answered(files, scans, lan
         (["relocalize", "--window-s", "2", "--window-scans", "2"], ["--window-s", "--window-scans"]),
         (["relocalize", "--window-scans", "500"], ["12 scans"]),
         (["relocalize", "--out", "no/such/folder/p.tum"], ["no/such/folder"]),
+        (["relocalize", "--picture", "p.xyz"], ["p.xyz", ".png"]),
+        (["relocalize", "--results", "."], ["."]),
         (["relocalize", "--sensor", "none.yaml"], ["none.yaml"]),
         (["search", "--index", "99"], ["99", "12 scans"]),
     ],

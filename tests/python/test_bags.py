@@ -135,3 +135,16 @@ def test_real_bag(data):
     assert len(log) == 906 and len(log.scans[0]) == 726
     assert all(scan.T_odom_robot is not None and scan.T_map_robot is not None for scan in log.scans)
     assert list(log.scans[0].sensor.beams[0].T_robot_beam) == pytest.approx([0.135, 0.0, -2.356194], abs=1e-5)
+
+
+def test_second_half_on_a_map_of_the_first(data):
+    """Where the places overlap (the robot turns back half way): against the localizer, good to 10 to 20 cm."""
+    scans = landfall.load_log(data / "rosbag" / "trace1.bag").scans
+    floor = landfall.PreparedMap(landfall.map_from_known_poses(scans[:453]))
+    back = scans[453:663:15]
+    results = landfall.search(floor, None, back)
+    errors_m = [
+        landfall.translation_distance(result.hypotheses[0].T_map_robot, scan.T_map_robot)
+        for result, scan in zip(results, back, strict=True)
+    ]
+    assert np.mean(np.array(errors_m) < 0.3) >= 0.8

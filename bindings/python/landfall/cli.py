@@ -58,6 +58,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # silences the flush at exit
         return 1
+    except OSError as cause:  # a full disk, say
+        return _complain(str(cause))
 
 
 def _complain(message: str) -> int:

@@ -7,7 +7,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from landfall._landfall import Pose2, save_trajectory
-from landfall.errors import FileNotFound, FileWrite
+from landfall.errors import FileNotFound, FileWrite, InvalidArgument
+
+PICTURE_ENDINGS = (".png", ".pdf", ".svg")
 
 
 class ResultsFile:
@@ -57,6 +59,14 @@ def require_folder(path: Path) -> None:
     """Raises FileNotFound where the file's folder does not exist: said before the work, not after."""
     if not path.parent.is_dir():
         raise FileNotFound(f"{path}: its folder {path.parent} does not exist")
+
+
+def require_picture(path: Path) -> None:
+    """Raises FileNotFound, or InvalidArgument for an ending that no picture has."""
+    require_folder(path)
+    if path.suffix.lower() not in PICTURE_ENDINGS:
+        known = ", ".join(PICTURE_ENDINGS)
+        raise InvalidArgument(f"{path}: a picture ends in one of {known}, not '{path.suffix}'")
 
 
 def make_folder(folder: Path) -> Path:

@@ -29,7 +29,14 @@ from landfall.commands.options import (
 from landfall.commands.tables import print_table
 from landfall.errors import InvalidArgument
 from landfall.interrupts import CleanStop
-from landfall.outputs import ResultsFile, add_chosen, make_folder, require_folder, write_trajectory
+from landfall.outputs import (
+    ResultsFile,
+    add_chosen,
+    make_folder,
+    require_folder,
+    require_picture,
+    write_trajectory,
+)
 from landfall.progress import progress_bar
 from landfall.relocalization import Answers, Question, relocalize
 from landfall.searching import search_options
@@ -104,9 +111,11 @@ def run(
         robot_radius_m=robot_radius_m,
         seed=seed,
     )
-    for path in (out, results, picture):
+    for path in (out, results):
         if path is not None:
             require_folder(path)
+    if picture is not None:
+        require_picture(picture)
     maps = load_maps(map)
     composition = Composition(window_max_scans, not no_align, threads)
     question = Question(maps, read_prior(prior), options, one_at_a_time, composition)

@@ -26,7 +26,7 @@ from landfall.commands.options import (
     read_prior,
 )
 from landfall.errors import InvalidArgument
-from landfall.outputs import require_folder
+from landfall.outputs import require_picture
 from landfall.searching import search_options
 
 
@@ -58,7 +58,7 @@ def run(
         seed=seed,
     )
     if picture is not None:
-        require_folder(picture)
+        require_picture(picture)
     maps = load_maps(map)
     asked = _pick(scan, index, sensor)
     result = search_batch(maps, [read_prior(prior)], [asked], options)[0]
