@@ -138,7 +138,7 @@ def test_real_bag(data):
 
 
 def test_second_half_on_a_map_of_the_first(data):
-    """Where the places overlap (the robot turns back half way): against the localizer, good to 10 to 20 cm."""
+    """Where the places overlap (the robot turns back half way): against its localizer (10 to 20 cm)."""
     scans = landfall.load_log(data / "rosbag" / "trace1.bag").scans
     floor = landfall.PreparedMap(landfall.map_from_known_poses(scans[:453]))
     back = scans[453:663:15]

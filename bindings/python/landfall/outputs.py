@@ -16,13 +16,14 @@ class ResultsFile:
     """results.jsonl: lines go to NAME.part; leaving the `with` block renames it, after an error too."""
 
     def __init__(self, path: Path | None) -> None:
+        if path is not None:
+            require_folder(path)
         self.path = path
         self.part = None if path is None else path.with_name(path.name + ".part")
         self._lines = None
 
     def __enter__(self) -> ResultsFile:
         if self.part is not None:
-            require_folder(self.part)
             self._lines = _guarded(self.part, lambda part: part.open("w", encoding="utf-8"))
         return self
 
@@ -56,7 +57,9 @@ def write_trajectory(poses: Sequence[tuple[float, Pose2]], tum: Path) -> None:
 
 
 def require_folder(path: Path) -> None:
-    """Raises FileNotFound where the file's folder does not exist: said before the work, not after."""
+    """Raises where `path` cannot become a file: said before the work, not after."""
+    if path.is_dir():
+        raise FileWrite(f"{path}: is a folder, expected a file to write")
     if not path.parent.is_dir():
         raise FileNotFound(f"{path}: its folder {path.parent} does not exist")
 
