@@ -30,6 +30,7 @@ CORRIDOR_M = 2.2
 ROW_DEPTHS_M = (6.5, 7.5, 5.5)  # bottom, middle, top row of rooms
 DOOR_M = 1.0
 STEP_M = 0.5
+HATCH_M = 0.04
 
 Segment = tuple[float, float, float, float]
 
@@ -84,6 +85,13 @@ def _rectangle(x0: float, y0: float, x1: float, y1: float) -> list[Segment]:
     return [(x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0)]
 
 
+def _block(x0: float, y0: float, x1: float, y1: float) -> list[Segment]:
+    """A rectangle hatched so densely that no cell of a map inside it stays free."""
+    lines = math.ceil(abs(y1 - y0) / HATCH_M)
+    hatch = [y0 + (y1 - y0) * k / lines for k in range(1, lines)]
+    return [*_rectangle(x0, y0, x1, y1), *((x0, y, x1, y) for y in hatch)]
+
+
 def _add_row(
     building: Building,
     rng: np.random.Generator,
@@ -133,18 +141,16 @@ def _furniture(rng: np.random.Generator, room: Room) -> Iterator[Segment]:
     while x + 1.0 < room.x1_m:
         width, depth = float(rng.uniform(0.7, 1.6)), float(rng.uniform(0.4, 0.8))
         if rng.random() < 0.7:
-            yield from _rectangle(
-                x, far_y - away * 0.03, min(x + width, room.x1_m - 0.1), far_y - away * depth
-            )
+            yield from _block(x, far_y - away * 0.03, min(x + width, room.x1_m - 0.1), far_y - away * depth)
         x += width + float(rng.uniform(0.3, 1.2))
     if rng.random() < 0.6:
         side_x = room.x0_m + 0.03 if rng.random() < 0.5 else room.x1_m - 0.43
         start_y = far_y - away * float(rng.uniform(2.2, 3.2))
-        yield from _rectangle(side_x, start_y, side_x + 0.4, start_y + away * float(rng.uniform(0.6, 1.2)))
+        yield from _block(side_x, start_y, side_x + 0.4, start_y + away * float(rng.uniform(0.6, 1.2)))
     if room.x1_m - room.x0_m > 6.0:
         cx, cy = room.center
         px, py = cx + float(rng.uniform(1.2, 1.6)), cy + away * 0.6
-        yield from _rectangle(px, py, px + 0.35, py + 0.35)
+        yield from _block(px, py, px + 0.35, py + 0.35)
 
 
 def _corridor_cupboards(rng: np.random.Generator, building: Building) -> Iterator[Segment]:
@@ -169,7 +175,7 @@ def _cupboards(
         wall_y = middle + side * CORRIDOR_M / 2
         beside = [door_x for door_x, door_y in doors if abs(door_y - wall_y) < 0.1]
         if all(door_x + DOOR_M < x or x + width < door_x - DOOR_M for door_x in beside):
-            yield from _rectangle(x, wall_y, x + width, wall_y - side * depth)
+            yield from _block(x, wall_y, x + width, wall_y - side * depth)
         x += width + float(rng.uniform(0.8, 3.0))
 
 

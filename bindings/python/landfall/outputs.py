@@ -17,7 +17,7 @@ class ResultsFile:
 
     def __init__(self, path: Path | None) -> None:
         if path is not None:
-            require_folder(path)
+            require_writable(path)
         self.path = path
         self.part = None if path is None else path.with_name(path.name + ".part")
         self._lines = None
@@ -52,11 +52,11 @@ def add_chosen(results: Path, choices: Sequence[int]) -> None:
 
 def write_trajectory(poses: Sequence[tuple[float, Pose2]], tum: Path) -> None:
     """A TUM file. Raises FileNotFound, FileWrite."""
-    require_folder(tum)
+    require_writable(tum)
     save_trajectory(list(poses), tum)
 
 
-def require_folder(path: Path) -> None:
+def require_writable(path: Path) -> None:
     """Raises where `path` cannot become a file: said before the work, not after."""
     if path.is_dir():
         raise FileWrite(f"{path}: is a folder, expected a file to write")
@@ -66,7 +66,7 @@ def require_folder(path: Path) -> None:
 
 def require_picture(path: Path) -> None:
     """Raises FileNotFound, or InvalidArgument for an ending that no picture has."""
-    require_folder(path)
+    require_writable(path)
     if path.suffix.lower() not in PICTURE_ENDINGS:
         known = ", ".join(PICTURE_ENDINGS)
         raise InvalidArgument(f"{path}: a picture ends in one of {known}, not '{path.suffix}'")

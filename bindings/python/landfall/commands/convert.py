@@ -10,7 +10,7 @@ import typer
 
 from landfall._landfall import save_log
 from landfall.commands.options import LogFile, SensorFile, read_log
-from landfall.outputs import require_folder, write_trajectory
+from landfall.outputs import require_writable, write_trajectory
 
 
 def run(
@@ -24,7 +24,9 @@ def run(
     sensor: SensorFile = None,
 ) -> None:
     """Any log that landfall reads, as scan lines."""
-    require_folder(out)
+    for path in (out, poses):
+        if path is not None:
+            require_writable(path)
     content = read_log(log, sensor)
     scans = content.scans[from_index:to_index]
     save_log(scans, out)

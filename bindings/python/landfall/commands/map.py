@@ -12,7 +12,7 @@ import typer
 from landfall._landfall import Pose2, Scan, load_trajectory, map_from_known_poses, save_grid_map
 from landfall.commands.options import LogFile, SensorFile, read_log
 from landfall.errors import InvalidArgument, UnknownName
-from landfall.outputs import require_folder
+from landfall.outputs import require_writable
 
 METHODS = ("known-poses",)
 POSE_TOLERANCE_S = 0.02
@@ -36,7 +36,7 @@ def run(
     """An occupancy grid from scans whose poses are known: corrected logs, a localizer's tf, or --poses."""
     if method not in METHODS:
         raise UnknownName(f"--method {method}: unknown; known: {', '.join(METHODS)}")
-    require_folder(out)
+    require_writable(out)
     scans = read_log(log, sensor).scans[from_index:to_index]
     if poses is not None:
         set_poses(scans, load_trajectory(poses))

@@ -33,8 +33,8 @@ from landfall.outputs import (
     ResultsFile,
     add_chosen,
     make_folder,
-    require_folder,
     require_picture,
+    require_writable,
     write_trajectory,
 )
 from landfall.progress import progress_bar
@@ -113,7 +113,7 @@ def run(
     )
     for path in (out, results):
         if path is not None:
-            require_folder(path)
+            require_writable(path)
     if picture is not None:
         require_picture(picture)
     maps = load_maps(map)

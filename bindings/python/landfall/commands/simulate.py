@@ -10,7 +10,7 @@ import typer
 from landfall._landfall import load_map, load_trajectory, save_log, simulate
 from landfall.commands.options import OneMap, Seed, one_sensor
 from landfall.errors import InvalidArgument
-from landfall.outputs import require_folder
+from landfall.outputs import require_writable
 
 
 def run(
@@ -25,7 +25,7 @@ def run(
     no_noise: Annotated[bool, typer.Option("--no-noise", help="Exact ranges.")] = False,
 ) -> None:
     """What a sensor would see from given poses, with the sensor's noise."""
-    require_folder(out)
+    require_writable(out)
     trajectory = load_trajectory(poses)
     if not trajectory:
         raise InvalidArgument(f"{poses}: no poses to simulate from")
