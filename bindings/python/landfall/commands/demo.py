@@ -99,6 +99,8 @@ def _draw(map: PreparedMap, scans: list[Scan], answers: Answers, folder: Path) -
     """The overview, the least certain answers, and some evenly spread ones."""
     from landfall.pictures import draw_answer, draw_trajectory  # matplotlib takes a while to import
 
+    for old in folder.glob("scan_*.png"):
+        old.unlink()
     draw_trajectory([map], answers, folder / "poses.png")
     count = len(answers.queries)
     least_certain = sorted(answers.kept, key=lambda k: _probability(answers, k))[:2]
