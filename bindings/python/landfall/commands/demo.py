@@ -8,7 +8,6 @@ from typing import Annotated
 
 import typer
 
-from landfall import building as drawn
 from landfall._landfall import (
     Anywhere,
     PosePrior,
@@ -19,9 +18,11 @@ from landfall._landfall import (
     save_log,
     save_trajectory,
 )
+from landfall.building import make_building
 from landfall.commands.evaluate import print_report
 from landfall.commands.options import Seed, Threads
 from landfall.commands.tables import print_table
+from landfall.drives import drive, record
 from landfall.evaluation import judge, load_estimates, report
 from landfall.interrupts import CleanStop
 from landfall.outputs import ResultsFile, make_folder, write_trajectory
@@ -55,11 +56,11 @@ def run(
 
 def _make(folder: Path, seed: int) -> tuple[PreparedMap, list[Scan]]:
     """The building's map, and the log with its truth beside it."""
-    building = drawn.make_building(seed)
+    building = make_building(seed)
     walls = building.wall_map()
     grid = walls.to_grid(outside_unknown=True)
-    truth = drawn.drive(building, seed)
-    scans = drawn.record(PreparedMap(walls), truth, seed)
+    truth = drive(building, seed)
+    scans = record(PreparedMap(walls), truth, seed)
     save_grid_map(grid, folder / "map.yaml")
     save_trajectory(
         [(scan.stamp_s, pose) for scan, pose in zip(scans, truth, strict=True)], folder / "truth.tum"
