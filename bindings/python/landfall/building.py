@@ -13,9 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from landfall._landfall import (
-    WallMap,
-)
+from landfall._landfall import WallMap
 
 WIDTH_M = 42.0
 CORRIDOR_M = 2.2
