@@ -1,5 +1,5 @@
 # Shortcuts; each works alone on a fresh machine. The recipes themselves are CMakePresets.json and tools/.
-.PHONY: help setup build demo test bench lint fuzz clean
+.PHONY: help setup build demo test bench lint format fuzz clean
 
 help:
 	@echo "make setup   install what is missing: Debian packages, .venv with the landfall package"
@@ -8,6 +8,7 @@ help:
 	@echo "make test    all tests, C++ and Python; real data where there is some (LANDFALL_DATA)"
 	@echo "make bench   benchmarks (preset bench); results under build/bench/results"
 	@echo "make lint    clang-format, clang-tidy, ruff, mypy, structure rules"
+	@echo "make format  lay out every source file: clang-format, ruff"
 	@echo "make fuzz    every fuzzer for a minute (preset fuzz)"
 	@echo "make clean   remove build/"
 
@@ -30,6 +31,9 @@ bench: setup
 
 lint: setup
 	@tools/lint
+
+format: setup
+	@tools/format
 
 fuzz: setup
 	@cmake --workflow --preset fuzz
