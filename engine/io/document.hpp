@@ -26,7 +26,6 @@ class Field {
 
   [[nodiscard]] bool is_text() const;
   [[nodiscard]] bool is_object() const;
-  [[nodiscard]] bool is_array() const;
   [[nodiscard]] std::size_t size() const;
 
   // A member of an object: required, or where present (null counts as absent).
@@ -38,7 +37,6 @@ class Field {
   void expect_only(std::initializer_list<std::string_view> keys) const;
 
   [[nodiscard]] double number() const;  // finite
-  [[nodiscard]] double number_at_least(double least) const;
   [[nodiscard]] double positive() const;
   [[nodiscard]] int integer(int least, int most) const;
   [[nodiscard]] bool flag() const;  // true, false, 1 or 0

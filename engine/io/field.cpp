@@ -28,7 +28,6 @@ bool Field::is_text() const {
 bool Field::is_object() const {
   return value_->is_object();
 }
-bool Field::is_array() const {
   return value_->is_array();
 }
 std::size_t Field::size() const {
@@ -84,12 +83,6 @@ void Field::expect_only(std::initializer_list<std::string_view> keys) const {
 double Field::number() const {
   if (!is_finite_number(*value_)) fail("a finite number");
   return value_->get<double>();
-}
-
-double Field::number_at_least(double least) const {
-  const double value = number();
-  if (value < least) fail("a number of at least " + shown(least));
-  return value;
 }
 
 double Field::positive() const {
