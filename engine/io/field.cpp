@@ -28,8 +28,6 @@ bool Field::is_text() const {
 bool Field::is_object() const {
   return value_->is_object();
 }
-  return value_->is_array();
-}
 std::size_t Field::size() const {
   return value_->size();
 }
