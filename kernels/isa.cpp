@@ -12,11 +12,23 @@ namespace {
 std::atomic<bool> scalar{false};
 
 // Highway numbers targets so that a better one of the same architecture is a lower bit.
-std::int64_t best_of(std::int64_t targets) { return targets & -targets; }
+std::int64_t best_of(std::int64_t targets) {
+  return targets & -targets;
+}
+
+// The machine's target of that name; 0: none.
+std::int64_t find_target(std::string_view name) {
+  static const std::int64_t all = hwy::SupportedTargets();
+  for (std::int64_t rest = all; rest != 0; rest &= rest - 1)
+    if (name == hwy::TargetName(best_of(rest))) return best_of(rest);
+  return 0;
+}
 
 }  // namespace
 
-bool scalar_selected() { return scalar.load(std::memory_order_relaxed); }
+bool scalar_selected() {
+  return scalar.load(std::memory_order_relaxed);
+}
 
 const char* isa_name() {
   return scalar_selected() ? "SCALAR" : hwy::TargetName(best_of(hwy::SupportedTargets()));
@@ -24,21 +36,12 @@ const char* isa_name() {
 
 bool select_isa(const char* name) {
   const std::string_view wanted = name == nullptr ? "" : name;
-  scalar = false;
-  hwy::DisableTargets(0);
-  if (wanted.empty()) return true;
-  if (wanted == "SCALAR") {
-    scalar = true;
-    return true;
-  }
-  const std::int64_t supported = hwy::SupportedTargets();
-  for (std::int64_t rest = supported; rest != 0; rest &= rest - 1) {
-    const std::int64_t target = best_of(rest);
-    if (wanted != hwy::TargetName(target)) continue;
-    hwy::DisableTargets(target - 1);
-    return true;
-  }
-  return false;
+  const bool plain = wanted == "SCALAR";
+  const std::int64_t target = wanted.empty() || plain ? 1 : find_target(wanted);
+  if (target == 0) return false;
+  hwy::DisableTargets(target - 1);
+  scalar = plain;
+  return true;
 }
 
 }  // namespace landfall::kernels

@@ -127,6 +127,7 @@ bool ScoreBlock(const WindowPlanes& planes, const std::int32_t* index, std::size
       }
     }
   }
+  if (largest_total < threshold) return false;
   for (int col = 0; col < block_cells; ++col) {
     for (int row = 0; row < 4; ++row) {
       scores[row * block_cells + col] = totals[4 * col + row];

@@ -1,0 +1,142 @@
+#include "kernels/score_block.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/search_tables.hpp"
+#include "instruction_sets.hpp"
+#include "random_field.hpp"
+
+namespace landfall {
+namespace {
+
+using kernels::block_cells;
+using kernels::block_poses;
+using Integers = std::vector<std::int32_t>;
+using Scores = std::array<std::int32_t, block_poses>;
+
+// A random field with its planes, a block of poses on it, and points that reach beyond it.
+struct Block {
+  int width, height, col, row;
+  std::vector<std::uint8_t> field;
+  internal::WindowTables tables;
+  Integers point_col, point_row;
+
+  Block(testing::RandomField& random, int points)
+      : width(random.between(1, 60)),
+        height(random.between(1, 60)),
+        col(block_cells * random.between(0, (width - 1) / block_cells)),
+        row(block_cells * random.between(0, (height - 1) / block_cells)),
+        field(random.bytes(static_cast<std::size_t>(width * height))),
+        tables(internal::make_window_tables(field, width, height)),
+        point_col(random.integers(static_cast<std::size_t>(points), -width - 20, width + 20)),
+        point_row(random.integers(static_cast<std::size_t>(points), -height - 20, height + 20)) {}
+
+  [[nodiscard]] Integers indices() const {
+    Integers index(point_col.size());
+    kernels::window_indices(tables.planes(), col, row, point_col.data(), point_row.data(), index.size(),
+                            index.data());
+    return index;
+  }
+  [[nodiscard]] std::int32_t field_at(int c, int r) const {
+    if (c < 0 || c >= width || r < 0 || r >= height) return 0;
+    return field[static_cast<std::size_t>(r * width + c)];
+  }
+  // Straight from the field.
+  [[nodiscard]] Scores scores() const {
+    Scores sums{};
+    for (int lane = 0; lane < block_poses; ++lane)
+      for (std::size_t i = 0; i < point_col.size(); ++i)
+        sums[static_cast<std::size_t>(lane)] +=
+            field_at(col + lane % block_cells + point_col[i], row + lane / block_cells + point_row[i]);
+    return sums;
+  }
+};
+
+class ScoreBlock : public ::testing::TestWithParam<std::string> {
+ protected:
+  testing::UsedInstructionSet used_{GetParam()};
+  testing::RandomField random_{3};
+};
+
+TEST_P(ScoreBlock, WindowIndicesEqualTheirTwin) {
+  for (const int points : testing::point_counts) {
+    const Block block(random_, points);
+    Integers expected(block.point_col.size());
+    kernels::scalar::window_indices(block.tables.planes(), block.col, block.row, block.point_col.data(),
+                                    block.point_row.data(), expected.size(), expected.data());
+    EXPECT_EQ(block.indices(), expected) << points;
+  }
+}
+
+TEST_P(ScoreBlock, ScoresEqualTheField) {
+  for (const int points : testing::point_counts) {
+    const Block block(random_, points);
+    const Integers index = block.indices();
+    Scores scores{}, twin{};
+    ASSERT_TRUE(kernels::score_block(block.tables.planes(), index.data(), index.size(), 0, scores.data()));
+    ASSERT_TRUE(
+        kernels::scalar::score_block(block.tables.planes(), index.data(), index.size(), 0, twin.data()));
+    EXPECT_EQ(scores, block.scores()) << points;
+    EXPECT_EQ(twin, block.scores()) << points;
+  }
+}
+
+TEST_P(ScoreBlock, GivesUpOnlyWhereNoPoseReachesTheThreshold) {
+  for (const int points : testing::point_counts) {
+    const Block block(random_, points);
+    const Integers index = block.indices();
+    const Scores expected = block.scores();
+    const std::int32_t largest = *std::max_element(expected.begin(), expected.end());
+    for (const std::int32_t threshold : {1, largest / 2, largest - 1, largest}) {
+      Scores scores{};
+      ASSERT_TRUE(kernels::score_block(block.tables.planes(), index.data(), index.size(),
+                                       std::min(threshold, largest), scores.data()));
+      EXPECT_EQ(scores, expected) << points;
+    }
+    Scores scores{};
+    for (const std::int32_t threshold : {largest + 1, 2 * largest + 1, 1 << 30})
+      EXPECT_FALSE(
+          kernels::score_block(block.tables.planes(), index.data(), index.size(), threshold, scores.data()))
+          << points;
+  }
+}
+
+TEST_P(ScoreBlock, BoundIsTheTwinsOrBelowTheThreshold) {
+  for (const int points : testing::point_counts) {
+    const Block block(random_, points);
+    const Integers index = block.indices();
+    const auto bound = [&](std::int32_t threshold) {
+      return kernels::bound_block(block.tables.planes(), index.data(), index.size(), threshold);
+    };
+    const std::int32_t full =
+        kernels::scalar::bound_block(block.tables.planes(), index.data(), index.size(), 0);
+    const Scores scores = block.scores();
+    EXPECT_GE(full, *std::max_element(scores.begin(), scores.end())) << points;
+    EXPECT_EQ(bound(0), full) << points;
+    EXPECT_EQ(bound(full), full) << points;
+    for (const std::int32_t threshold : {full + 1, 2 * full + 1, 1 << 30})
+      EXPECT_LT(bound(threshold), threshold) << points;
+  }
+}
+
+TEST_P(ScoreBlock, SumsBeyondSixteenBits) {
+  const std::vector<std::uint8_t> field(100, 255);
+  const internal::WindowTables tables = internal::make_window_tables(field, 10, 10);
+  const Integers zero(1000, 0);
+  Integers index(1000);
+  kernels::window_indices(tables.planes(), 0, 0, zero.data(), zero.data(), zero.size(), index.data());
+  Scores scores{}, expected{};
+  expected.fill(255'000);
+  EXPECT_EQ(kernels::bound_block(tables.planes(), index.data(), index.size(), 0), 255'000);
+  ASSERT_TRUE(kernels::score_block(tables.planes(), index.data(), index.size(), 255'000, scores.data()));
+  EXPECT_EQ(scores, expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, ScoreBlock, ::testing::ValuesIn(testing::instruction_sets()),
+                         [](const auto& set) { return set.param; });
+
+}  // namespace
+}  // namespace landfall
