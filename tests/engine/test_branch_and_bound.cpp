@@ -1,0 +1,122 @@
+// Branch and bound against its oracle, exhaustive: the same hypotheses on any map, scan, prior and step.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "instruction_sets.hpp"
+#include "random_world.hpp"
+#include "same_answer.hpp"
+
+namespace landfall {
+namespace {
+
+using testing::answer_or_error;
+using testing::expect_same_answer;
+using testing::World;
+
+SearchResult answer(const World& world, const char* method, int threads = 1) {
+  SearchOptions options = world.options;
+  options.method = method;
+  options.threads = threads;
+  return answer_or_error(world.map, world.prior, world.scan, options);
+}
+
+// More poses than this are not all scored block by block.
+constexpr std::int64_t many_poses = 200'000;
+
+struct Tally {
+  int cases = 0;
+  int with_answer = 0;
+  int with_many_poses = 0;
+};
+
+// Seeds [first, last).
+template <class MakeWorld>
+Tally expect_equal_to_exhaustive(const MakeWorld& make_world, std::uint64_t first, std::uint64_t last) {
+  Tally tally;
+  for (std::uint64_t seed = first; seed < last && !::testing::Test::HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const World world = make_world(seed);
+    const SearchResult expected = answer(world, "exhaustive");
+    const SearchResult actual = answer(world, "branch_and_bound", seed % 2 == 0 ? 1 : 2);
+    expect_same_answer(actual, expected);
+    EXPECT_EQ(expected.proven, expected.counts.poses_scored > 0);
+    ++tally.cases;
+    tally.with_answer += expected.hypotheses.empty() ? 0 : 1;
+    tally.with_many_poses += expected.counts.poses_covered > many_poses ? 1 : 0;
+  }
+  return tally;
+}
+
+TEST(BranchAndBound, EqualsExhaustiveInSmallWorlds) {
+  const Tally tally = expect_equal_to_exhaustive(testing::small_world, 0, 800);
+  EXPECT_EQ(tally.cases, 800);
+  EXPECT_GT(tally.with_answer, 400);
+}
+
+TEST(BranchAndBound, EqualsExhaustiveInLargeWorlds) {
+  const Tally tally = expect_equal_to_exhaustive(testing::large_world, 0, 300);
+  EXPECT_EQ(tally.cases, 300);
+  EXPECT_GT(tally.with_answer, 150);
+  EXPECT_GT(tally.with_many_poses, 150);
+}
+
+TEST(BranchAndBound, EqualsExhaustiveWithFewBeamsAndCoarseHeadings) {
+  const Tally tally = expect_equal_to_exhaustive(testing::coarse_world, 0, 100);
+  EXPECT_EQ(tally.cases, 100);
+  EXPECT_GT(tally.with_answer, 50);
+  EXPECT_GT(tally.with_many_poses, 50);
+}
+
+// Thirty beams end in the robot's own cell, which is free; one ends 100 cells ahead, somewhere else at each
+// of the eight headings. Only it can score, and where it does, the robot stands far from any wall.
+TEST(BranchAndBound, KeepsPosesThatOnlyAFarBeamSpeaksFor) {
+  GridMap grid{.width_cells = 300,
+               .height_cells = 300,
+               .resolution_m = 1.0,
+               .T_map_grid = {},
+               .cells = std::vector<Occupancy>(90'000)};
+  for (int row = 0; row < 300; ++row) grid.cells[grid.index({290, row})] = Occupancy::occupied;
+  const auto sensor =
+      std::make_shared<const Sensor>(make_fan({.beams = 31, .step_rad = 0.0, .range_max_m = 1e3}));
+  World world{.map = PreparedMap(grid), .prior = {Anywhere{}}, .scan = {.sensor = sensor}, .options = {}};
+  world.scan.ranges_m.assign(31, 0.3F);
+  world.scan.ranges_m[7] = 100.0F;
+  world.options.rotation_step_rad = std::numbers::pi / 4;
+  const SearchResult expected = answer(world, "exhaustive");
+  ASSERT_FALSE(expected.hypotheses.empty());
+  EXPECT_EQ(expected.hypotheses[0].score, 255);
+  EXPECT_EQ(expected.hypotheses[0].T_map_robot_unrefined, (Pose2{190.5, 0.5, 0.0}));
+  expect_same_answer(answer(world, "branch_and_bound"), expected);
+}
+
+TEST(BranchAndBound, AnswersTheSameOnEveryInstructionSet) {
+  for (std::uint64_t seed = 1000; seed < 1040; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const World world = seed % 4 == 0 ? testing::large_world(seed) : testing::small_world(seed);
+    for (const char* method : {"exhaustive", "branch_and_bound"}) {
+      if (seed % 4 == 0 && std::string(method) == "exhaustive") continue;  // the plain twin takes long
+      const SearchResult best = answer(world, method);
+      for (const std::string& name : testing::instruction_sets()) {
+        SCOPED_TRACE(std::string(method) + " on " + name);
+        const testing::UsedInstructionSet used(name);
+        expect_same_answer(answer(world, method), best);
+      }
+    }
+  }
+}
+
+TEST(BranchAndBound, AnswersTheSameOnAnyNumberOfThreads) {
+  for (std::uint64_t seed = 2000; seed < 2020; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const World world = seed % 2 == 0 ? testing::large_world(seed) : testing::small_world(seed);
+    for (const char* method : {"exhaustive", "branch_and_bound"}) {
+      const SearchResult one = answer(world, method, 1);
+      for (const int threads : {0, 2, 5}) expect_same_answer(answer(world, method, threads), one);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace landfall
