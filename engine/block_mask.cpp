@@ -22,14 +22,6 @@ BlockMask make_block_mask(int col0, int row0, int col1, int row1) {
   return mask;
 }
 
-BlockMask intersection(const BlockMask& a, const BlockMask& b) {
-  BlockMask both = a;
-  std::size_t i = 0;
-  for (int row = a.first_row; row < a.first_row + a.rows; ++row)
-    for (int col = a.first_col; col < a.first_col + a.cols; ++col) both.words[i++] &= b.at(col, row);
-  return both;
-}
-
 BlockMask merged(const BlockMask& a, const BlockMask& b) {
   if (a.words.empty()) return b;
   if (b.words.empty()) return a;

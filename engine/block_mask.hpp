@@ -30,7 +30,9 @@ struct BlockMask {
   }
   [[nodiscard]] bool contains(int cell_col, int cell_row) const {
     if (cell_col < 0 || cell_row < 0) return false;
-    return (at(cell_col / kernels::block_cells, cell_row / kernels::block_cells) >> bit_of(cell_col, cell_row)) & 1U;
+    return (at(cell_col / kernels::block_cells, cell_row / kernels::block_cells) >>
+            bit_of(cell_col, cell_row)) &
+           1U;
   }
   [[nodiscard]] std::int64_t count() const;
 
@@ -43,8 +45,6 @@ struct BlockMask {
 // An empty mask over the cells [col0, col1] x [row0, row1] of the grid.
 BlockMask make_block_mask(int col0, int row0, int col1, int row1);
 
-// Cells in both; the rectangle is a's.
-BlockMask intersection(const BlockMask& a, const BlockMask& b);
 // Cells in either.
 BlockMask merged(const BlockMask& a, const BlockMask& b);
 

@@ -63,10 +63,13 @@ double log_jump_density(std::span<const SearchResult> results, double jump_proba
 std::vector<int> consistent(std::span<const SearchResult> results, std::span<const Pose2> T_odom_robot,
                             const ConsistentOptions& options) {
   if (results.size() != T_odom_robot.size())
-    throw Error(ErrorCode::invalid_argument, "consistent: " + std::to_string(results.size()) + " results and " +
-                                                 std::to_string(T_odom_robot.size()) + " odometry poses, expected as many");
+    throw Error(ErrorCode::invalid_argument, "consistent: " + std::to_string(results.size()) +
+                                                 " results and " + std::to_string(T_odom_robot.size()) +
+                                                 " odometry poses, expected as many");
   if (!(options.jump_probability > 0.0) || !(options.jump_probability <= 1.0))
-    throw Error(ErrorCode::invalid_argument, "consistent: jump_probability is " + std::to_string(options.jump_probability) + ", expected more than 0 and at most 1");
+    throw Error(ErrorCode::invalid_argument, "consistent: jump_probability is " +
+                                                 std::to_string(options.jump_probability) +
+                                                 ", expected more than 0 and at most 1");
   std::vector<std::size_t> answered;
   for (std::size_t i = 0; i < results.size(); ++i)
     if (!results[i].hypotheses.empty()) answered.push_back(i);
@@ -90,7 +93,8 @@ std::vector<int> consistent(std::span<const SearchResult> results, std::span<con
         double best = -1e300;
         for (std::size_t p = 0; p < before.size(); ++p) {
           const bool same_map = before[p].map_index == here[h].map_index;
-          const double through = score[p] + (same_map ? log_transition(before[p], here[h], step, log_jump) : log_jump);
+          const double through =
+              score[p] + (same_map ? log_transition(before[p], here[h], step, log_jump) : log_jump);
           if (through <= best) continue;
           best = through;
           came_from[a][h] = static_cast<int>(p);

@@ -12,13 +12,14 @@ namespace {
 constexpr int columns_per_task = 512;
 constexpr int rows_per_task = 32;
 
-std::vector<std::uint16_t> column_distances(const std::vector<std::uint8_t>& marked, int width, int height, int cap) {
+std::vector<std::uint16_t> column_distances(const std::vector<std::uint8_t>& marked, int width, int height,
+                                            int cap) {
   std::vector<std::uint16_t> distance(marked.size());
   const auto tasks = static_cast<std::size_t>((width + columns_per_task - 1) / columns_per_task);
   parallel_for(tasks, 0, [&](std::size_t task) {
     const int first = static_cast<int>(task) * columns_per_task;
-    kernels::column_distances(marked.data(), width, height, cap, first, std::min(width, first + columns_per_task),
-                              distance.data());
+    kernels::column_distances(marked.data(), width, height, cap, first,
+                              std::min(width, first + columns_per_task), distance.data());
   });
   return distance;
 }
@@ -37,7 +38,8 @@ std::vector<std::uint8_t> values_by_squared_distance(double resolution_m, double
   std::vector<std::uint8_t> values;
   for (int squared = 0;; ++squared) {
     const double d_m2 = squared * resolution_m * resolution_m;
-    values.push_back(static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-d_m2 / (2.0 * sigma_m * sigma_m)))));
+    values.push_back(
+        static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-d_m2 / (2.0 * sigma_m * sigma_m)))));
     if (values.back() == 0) return values;
   }
 }
@@ -60,8 +62,9 @@ std::vector<std::int32_t> squared_distances(const std::vector<std::uint8_t>& mar
 
 std::vector<std::uint8_t> likelihood_field(const GridMap& map, double sigma_m, std::uint8_t unknown_value) {
   std::vector<std::uint8_t> marked(map.cells.size());
-  std::transform(map.cells.begin(), map.cells.end(), marked.begin(),
-                 [](Occupancy cell) { return cell == Occupancy::occupied ? std::uint8_t{1} : std::uint8_t{0}; });
+  std::transform(map.cells.begin(), map.cells.end(), marked.begin(), [](Occupancy cell) {
+    return cell == Occupancy::occupied ? std::uint8_t{1} : std::uint8_t{0};
+  });
   const std::vector<std::uint8_t> values = values_by_squared_distance(map.resolution_m, sigma_m);
   const auto last = static_cast<std::int32_t>(values.size() - 1);
   const int radius = static_cast<int>(std::floor(std::sqrt(static_cast<double>(last))));

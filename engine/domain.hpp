@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/block_mask.hpp"
+#include "engine/gaussian_density.hpp"
 #include "engine/lattice.hpp"
 #include "landfall/prior.hpp"
 
@@ -13,23 +15,22 @@ namespace landfall::internal {
 
 using SharedMask = std::shared_ptr<const BlockMask>;
 
-// One component of the prior (a plain prior has one). Headings without poses have a null mask.
+// One part of the prior (a plain prior has one). Headings without poses have a null mask.
 struct DomainComponent {
   std::vector<SharedMask> mask_of_heading;
-  double weight = 1.0;      // normalised over the components
-  double normaliser = 0.0;  // sum of `density` over the component's poses
-  Gaussian gaussian;        // density exp(-mahalanobis^2 / 2) where `is_gaussian`, else 1
-  bool is_gaussian = false;
+  double weight = 1.0;                      // normalised over the components
+  double normaliser = 0.0;                  // sum of the density over the component's poses
+  std::optional<GaussianDensity> gaussian;  // else the density is 1
 };
 
 struct Domain {
   std::vector<SharedMask> mask_of_heading;  // union of the components'
-  std::vector<DomainComponent> components;
-  std::int64_t poses = 0;  // lattice poses, after the free-space mask
-  bool on_map = false;     // the prior's support touches the map, free or not
+  std::vector<DomainComponent> components;  // those with weight and free poses
+  std::int64_t poses = 0;                   // lattice poses, after the free-space mask
+  bool on_map = false;                      // the prior's support touches the map, free or not
 
   [[nodiscard]] bool contains(const LatticePose& pose) const;
-  // Prior probability of a pose of the domain, natural logarithm. They sum to 1.
+  // Prior probability of a pose of the domain, natural logarithm. Over the domain they sum to 1.
   [[nodiscard]] double log_prior(const Lattice& lattice, const LatticePose& pose) const;
 };
 

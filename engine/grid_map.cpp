@@ -19,10 +19,13 @@ Point2 GridMap::center_of(CellIndex cell) const {
 }
 
 void validate(const GridMap& map) {
-  const auto fail = [](ErrorCode code, const std::string& message) { throw Error(code, "grid map: " + message); };
+  const auto fail = [](ErrorCode code, const std::string& message) {
+    throw Error(code, "grid map: " + message);
+  };
   if (map.width_cells <= 0 || map.height_cells <= 0)
     fail(ErrorCode::invalid_argument, "size is " + std::to_string(map.width_cells) + " x " +
-                                          std::to_string(map.height_cells) + " cells, expected at least 1 x 1");
+                                          std::to_string(map.height_cells) +
+                                          " cells, expected at least 1 x 1");
   if (std::max(map.width_cells, map.height_cells) > max_map_side_cells)
     fail(ErrorCode::too_large, "size is " + std::to_string(map.width_cells) + " x " +
                                    std::to_string(map.height_cells) + " cells, at most " +
@@ -36,8 +39,8 @@ void validate(const GridMap& map) {
          "resolution_m is " + std::to_string(map.resolution_m) + ", expected a positive number");
   if (!is_finite(map.T_map_grid)) fail(ErrorCode::invalid_argument, "origin is not finite");
   if (map.cells.size() != static_cast<std::size_t>(cells))
-    fail(ErrorCode::invalid_argument, "holds " + std::to_string(map.cells.size()) + " cells, expected " +
-                                          std::to_string(cells));
+    fail(ErrorCode::invalid_argument,
+         "holds " + std::to_string(map.cells.size()) + " cells, expected " + std::to_string(cells));
 }
 
 }  // namespace landfall

@@ -1,5 +1,6 @@
 #include "engine/lattice.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -12,15 +13,21 @@ namespace {
 constexpr double full_turn_rad = 2.0 * std::numbers::pi;
 constexpr int max_headings = 36'000;
 
+// Far outside of any grid stays outside.
 int nearest_multiple(double value, int step) {
-  return static_cast<int>(std::lround(value / step)) * step;
+  constexpr double farthest = 1 << 28;
+  return static_cast<int>(std::lround(std::clamp(value, -farthest, farthest) / step)) * step;
 }
 
 }  // namespace
 
-double Lattice::heading_step_rad() const { return full_turn_rad / headings; }
+double Lattice::heading_step_rad() const {
+  return full_turn_rad / headings;
+}
 
-double Lattice::heading_grid_rad(int heading) const { return wrap_angle(heading * full_turn_rad / headings); }
+double Lattice::heading_grid_rad(int heading) const {
+  return wrap_angle(heading * full_turn_rad / headings);
+}
 
 Pose2 Lattice::T_map_robot(const LatticePose& pose) const {
   return T_map_grid * Pose2{(pose.col + 0.5) * resolution_m, (pose.row + 0.5) * resolution_m,
@@ -39,9 +46,10 @@ Lattice make_lattice(const GridMap& map, double translation_step_m, double rotat
   const double step_cells = translation_step_m == 0.0 ? 1.0 : translation_step_m / map.resolution_m;
   if (!(step_cells > 0.5) || step_cells > max_map_side_cells ||
       std::abs(step_cells - std::round(step_cells)) > 1e-6 * step_cells) {
-    throw Error(ErrorCode::invalid_argument,
-                "option translation_step_m is " + std::to_string(translation_step_m) +
-                    ", expected 0 or a multiple of the map's resolution, " + std::to_string(map.resolution_m));
+    throw Error(ErrorCode::invalid_argument, "option translation_step_m is " +
+                                                 std::to_string(translation_step_m) +
+                                                 ", expected 0 or a multiple of the map's resolution, " +
+                                                 std::to_string(map.resolution_m));
   }
   if (!(rotation_step_rad >= full_turn_rad / max_headings) || !(rotation_step_rad <= full_turn_rad)) {
     throw Error(ErrorCode::invalid_argument,

@@ -28,6 +28,9 @@ struct Lattice {
   // The heading of index k in the grid's frame, in (-pi, pi].
   [[nodiscard]] double heading_grid_rad(int heading) const;
   [[nodiscard]] Pose2 T_map_robot(const LatticePose& pose) const;
+  [[nodiscard]] bool contains(const LatticePose& pose) const {
+    return pose.col >= 0 && pose.col < width_cells && pose.row >= 0 && pose.row < height_cells;
+  }
   // The lattice pose nearest to a pose; it may lie outside the grid.
   [[nodiscard]] LatticePose nearest(const Pose2& T_map_robot) const;
 };

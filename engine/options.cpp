@@ -18,7 +18,9 @@ void require(bool holds, const char* option, double value, const char* expected)
                 "option " + std::string(option) + " is " + std::to_string(value) + ", expected " + expected);
 }
 
-bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
+bool not_negative(double value) {
+  return std::isfinite(value) && value >= 0.0;
+}
 
 }  // namespace
 
@@ -28,10 +30,11 @@ void validate(const SearchOptions& options) {
   require(options.max_hypotheses >= 1 && options.max_hypotheses <= most_hypotheses, "max_hypotheses",
           options.max_hypotheses, "1 to 1000");
   require(not_negative(options.time_budget_s), "time_budget_s", options.time_budget_s, "0 (none) or seconds");
-  require(options.threads >= 0 && options.threads <= most_threads, "threads", options.threads, "0 (all) to 1024");
+  require(options.threads >= 0 && options.threads <= most_threads, "threads", options.threads,
+          "0 (all) to 1024");
   require(not_negative(options.robot_radius_m), "robot_radius_m", options.robot_radius_m, "0 or metres");
-  require(not_negative(options.distinct_translation_m), "distinct_translation_m", options.distinct_translation_m,
-          "0 or metres");
+  require(not_negative(options.distinct_translation_m), "distinct_translation_m",
+          options.distinct_translation_m, "0 or metres");
   require(not_negative(options.distinct_rotation_rad), "distinct_rotation_rad", options.distinct_rotation_rad,
           "0 or radians");
 }

@@ -5,7 +5,9 @@
 
 namespace landfall::internal {
 
-int thread_count(int threads) { return threads > 0 ? threads : tbb::this_task_arena::max_concurrency(); }
+int thread_count(int threads) {
+  return threads > 0 ? threads : tbb::this_task_arena::max_concurrency();
+}
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   if (thread_count(threads) == 1 || count < 2) {

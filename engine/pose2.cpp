@@ -12,7 +12,9 @@ double wrap_angle(double angle_rad) {
   return wrapped <= -pi ? pi : wrapped;
 }
 
-double angle_distance(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
+double angle_distance(double a_rad, double b_rad) {
+  return std::abs(wrap_angle(a_rad - b_rad));
+}
 
 Point2 operator*(const Pose2& T_a_b, const Point2& p_b) {
   const double c = std::cos(T_a_b.theta_rad);

@@ -1,5 +1,6 @@
 #include "landfall/prepared_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -15,9 +16,11 @@ namespace internal {
 PreparedState::PreparedState(GridMap grid, std::optional<WallMap> walls, PrepareOptions options)
     : grid_(std::move(grid)), options_(std::move(options)), plan_(std::move(walls)) {
   validate(grid_);
-  if (!(options_.field_sigma_m > 0.0) || !std::isfinite(options_.field_sigma_m))
-    throw Error(ErrorCode::invalid_argument, "option field_sigma_m is " + std::to_string(options_.field_sigma_m) +
-                                                 ", expected a positive number");
+  const double most_sigma_m = 1000.0 * grid_.resolution_m;
+  if (!(options_.field_sigma_m > 0.0) || !(options_.field_sigma_m <= most_sigma_m))
+    throw Error(ErrorCode::invalid_argument,
+                "option field_sigma_m is " + std::to_string(options_.field_sigma_m) +
+                    ", expected more than 0 and at most " + std::to_string(most_sigma_m));
 }
 
 const std::vector<std::int32_t>& PreparedState::squared_distance_cells() const {
@@ -30,16 +33,19 @@ const std::vector<std::int32_t>& PreparedState::squared_distance_cells() const {
 }
 
 const std::vector<std::uint8_t>& PreparedState::field() const {
-  return field_.get([this] { return likelihood_field(grid_, options_.field_sigma_m, options_.unknown_value); });
+  return field_.get(
+      [this] { return likelihood_field(grid_, options_.field_sigma_m, options_.unknown_value); });
 }
 
 const WindowTables& PreparedState::window_tables() const {
-  return window_tables_.get([this] { return make_window_tables(field(), grid_.width_cells, grid_.height_cells); });
+  return window_tables_.get(
+      [this] { return make_window_tables(field(), grid_.width_cells, grid_.height_cells); });
 }
 
 const BoundTable& PreparedState::bound_table() const {
-  return bound_table_.get(
-      [this] { return make_bound_table(field(), grid_.width_cells, grid_.height_cells, kernels::block_cells); });
+  return bound_table_.get([this] {
+    return make_bound_table(field(), grid_.width_cells, grid_.height_cells, kernels::block_cells);
+  });
 }
 
 const WallMap& PreparedState::walls() const {
@@ -68,6 +74,9 @@ std::shared_ptr<const BlockMask> PreparedState::free_mask(double robot_radius_m,
       const std::size_t i = grid_.index({col, row});
       if (grid_.cells[i] != Occupancy::free) continue;
       if (!clearance.empty() && std::sqrt(static_cast<double>(clearance[i])) <= radius_cells) continue;
+      // What lies outside of the map is not known to be free.
+      const int border = std::min({col + 1, row + 1, grid_.width_cells - col, grid_.height_cells - row});
+      if (robot_radius_m > 0.0 && border <= radius_cells) continue;
       cells.insert(col, row);
     }
   }
@@ -100,12 +109,24 @@ PreparedMap::PreparedMap(WallMap walls, GridFromWallsOptions grid, PrepareOption
   state_ = std::make_shared<internal::PreparedState>(std::move(cells), std::move(walls), std::move(options));
 }
 
-const GridMap& PreparedMap::grid() const { return state_->grid(); }
-const PrepareOptions& PreparedMap::options() const { return state_->options(); }
-std::span<const std::int32_t> PreparedMap::squared_distance_cells() const { return state_->squared_distance_cells(); }
-std::span<const std::uint8_t> PreparedMap::field() const { return state_->field(); }
-const WallMap& PreparedMap::walls() const { return state_->walls(); }
-std::size_t PreparedMap::memory_bytes() const { return state_->memory_bytes(); }
+const GridMap& PreparedMap::grid() const {
+  return state_->grid();
+}
+const PrepareOptions& PreparedMap::options() const {
+  return state_->options();
+}
+std::span<const std::int32_t> PreparedMap::squared_distance_cells() const {
+  return state_->squared_distance_cells();
+}
+std::span<const std::uint8_t> PreparedMap::field() const {
+  return state_->field();
+}
+const WallMap& PreparedMap::walls() const {
+  return state_->walls();
+}
+std::size_t PreparedMap::memory_bytes() const {
+  return state_->memory_bytes();
+}
 
 void PreparedMap::prepare() const {
   (void)active_isa();

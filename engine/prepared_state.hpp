@@ -27,7 +27,9 @@ class Lazy {
     });
     return *value_;
   }
-  [[nodiscard]] const T* if_built() const { return built_.load(std::memory_order_acquire) ? &*value_ : nullptr; }
+  [[nodiscard]] const T* if_built() const {
+    return built_.load(std::memory_order_acquire) ? &*value_ : nullptr;
+  }
 
  private:
   mutable std::once_flag once_;

@@ -7,15 +7,18 @@
 
 namespace landfall::internal {
 
-std::int32_t lowest_rival(std::int32_t best_score, std::size_t points) {
-  const double margin = rival_nats / evidence_nats(points) * 255.0 * static_cast<double>(points);
-  return std::max(1, best_score - static_cast<std::int32_t>(margin));
+std::int32_t rival_margin(std::size_t points) {
+  return static_cast<std::int32_t>(rival_nats / evidence_nats(points) * 255.0 * static_cast<double>(points));
+}
+
+std::int32_t lowest_rival(std::int32_t best_score, std::int32_t margin) {
+  return std::max(1, best_score - margin);
 }
 
 void keep_rivals(std::vector<Candidate>& candidates, std::size_t points) {
   std::int32_t best = 0;
   for (const Candidate& candidate : candidates) best = std::max(best, candidate.score);
-  const std::int32_t lowest = lowest_rival(best, points);
+  const std::int32_t lowest = lowest_rival(best, rival_margin(points));
   std::erase_if(candidates, [lowest](const Candidate& candidate) { return candidate.score < lowest; });
   if (candidates.size() > max_candidates) {
     std::nth_element(candidates.begin(), candidates.begin() + max_candidates, candidates.end(), better);
@@ -24,7 +27,8 @@ void keep_rivals(std::vector<Candidate>& candidates, std::size_t points) {
   std::sort(candidates.begin(), candidates.end(), better);
 }
 
-Candidate best_of_block(const std::int32_t* scores, std::uint64_t allowed, int heading, int block_row, int block_col) {
+Candidate best_of_block(const std::int32_t* scores, std::uint64_t allowed, int heading, int block_row,
+                        int block_col) {
   using kernels::block_cells;
   Candidate best;
   for (; allowed != 0; allowed &= allowed - 1) {

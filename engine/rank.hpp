@@ -11,15 +11,17 @@ namespace landfall::internal {
 struct Mode {
   Candidate best;
   double log_mass = 0.0;  // prior x likelihood, summed over its candidates; natural logarithm
+  double share = 0.0;     // of the best imaginable score, at the refined pose
   int map_index = 0;
   Hypothesis hypothesis;  // filled in by refine and verify
 };
 
 // What one map has to say of one scan.
 struct Modes {
-  std::vector<Mode> modes;     // best score first
-  double log_rest = 0.0;       // mass of candidates beyond the last mode, and of what was not looked for
-  double log_elsewhere = 0.0;  // mass of "the scan is from somewhere else"
+  std::vector<Mode> modes;  // best score first
+  double log_rest = 0.0;    // mass of the candidates beyond the last mode
+  double nats = 0.0;        // what a share of 1 is worth
+  std::size_t points = 0;
 };
 
 // Greedy: the best candidate is a mode; each next one joins the first mode within both distances, or

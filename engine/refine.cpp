@@ -22,7 +22,8 @@ FieldSample sample(const std::uint8_t* field, int width, int height, double x_ce
   if (!(col >= 0.0 && row >= 0.0 && col + 1.0 < width && row + 1.0 < height)) return {0.0, 0.0, 0.0};
   const double fx = x - col;
   const double fy = y - row;
-  const std::uint8_t* at = field + static_cast<std::ptrdiff_t>(row) * width + static_cast<std::ptrdiff_t>(col);
+  const std::uint8_t* at =
+      field + static_cast<std::ptrdiff_t>(row) * width + static_cast<std::ptrdiff_t>(col);
   constexpr double scale = 1.0 / 255.0;
   const double v00 = at[0] * scale;
   const double v01 = at[1] * scale;
@@ -37,6 +38,7 @@ struct Normal {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double cost = 0.0;
+  double field = 0.0;  // sum over the points
 };
 
 // Residuals 1 - field(end point); pose in cells and radians in the grid's frame.
@@ -53,6 +55,7 @@ Normal linearise(const PreparedState& map, const EndPoints& points, const Eigen:
     const FieldSample at = sample(field, width, height, pose[0] + x, pose[1] + y);
     const double residual = 1.0 - at.value;
     normal.cost += residual * residual;
+    normal.field += at.value;
     const Eigen::Vector3d slope(at.d_col, at.d_row, at.d_row * x - at.d_col * y);
     normal.hessian.noalias() += slope * slope.transpose();
     normal.gradient += residual * slope;
@@ -65,8 +68,10 @@ std::array<double, 9> covariance_of(const Normal& normal, std::size_t points, co
   // A direction that no point constrains (a corridor's axis) is known to about a metre.
   constexpr double widest_m = 1.0;
   Eigen::Vector3d unit(lattice.resolution_m, lattice.resolution_m, 1.0);
-  const double variance = std::max(0.01, normal.cost / std::max<double>(1.0, static_cast<double>(points) - 3.0));
-  Eigen::Matrix3d information = unit.cwiseInverse().asDiagonal() * normal.hessian * unit.cwiseInverse().asDiagonal();
+  const double variance =
+      std::max(0.01, normal.cost / std::max<double>(1.0, static_cast<double>(points) - 3.0));
+  Eigen::Matrix3d information =
+      unit.cwiseInverse().asDiagonal() * normal.hessian * unit.cwiseInverse().asDiagonal();
   information /= variance;
   information.diagonal() += Eigen::Vector3d::Constant(1.0 / (widest_m * widest_m));
   const Eigen::Rotation2Dd turn(lattice.T_map_grid.theta_rad);
@@ -80,12 +85,13 @@ std::array<double, 9> covariance_of(const Normal& normal, std::size_t points, co
 
 }  // namespace
 
-Refined refine(const PreparedState& map, const EndPoints& points, const Lattice& lattice, const Pose2& T_map_start) {
+Refined refine(const PreparedState& map, const EndPoints& points, const Lattice& lattice,
+               const Pose2& T_map_start) {
   constexpr int most_iterations = 12;
   constexpr double most_steps = 1.5;
   const Pose2 T_grid_start = inverse(lattice.T_map_grid) * T_map_start;
-  const Eigen::Vector3d start(T_grid_start.x_m / lattice.resolution_m, T_grid_start.y_m / lattice.resolution_m,
-                              T_grid_start.theta_rad);
+  const Eigen::Vector3d start(T_grid_start.x_m / lattice.resolution_m,
+                              T_grid_start.y_m / lattice.resolution_m, T_grid_start.theta_rad);
   const Eigen::Vector3d reach =
       most_steps * Eigen::Vector3d(lattice.step_cells, lattice.step_cells, lattice.heading_step_rad());
   Eigen::Vector3d pose = start;
@@ -110,7 +116,9 @@ Refined refine(const PreparedState& map, const EndPoints& points, const Lattice&
     if (gain < 1e-6 * at.cost) break;
   }
   const Pose2 T_grid_robot{pose[0] * lattice.resolution_m, pose[1] * lattice.resolution_m, pose[2]};
-  return {.T_map_robot = lattice.T_map_grid * T_grid_robot, .covariance = covariance_of(at, points.size(), lattice)};
+  return {.T_map_robot = lattice.T_map_grid * T_grid_robot,
+          .covariance = covariance_of(at, points.size(), lattice),
+          .share = at.field / static_cast<double>(std::max<std::size_t>(1, points.size()))};
 }
 
 }  // namespace landfall::internal

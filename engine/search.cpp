@@ -35,6 +35,10 @@ class StageTimer {
   Clock::time_point start_ = Clock::now();
 };
 
+// So many modes are refined and verified even where fewer hypotheses are asked for: the best score is
+// not always the most probable pose.
+constexpr int least_modes = 8;
+
 // A map with what all scans of a call share.
 struct PreparedQuestion {
   const PreparedState& map;
@@ -64,6 +68,7 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
     const Refined refined = refine(query.map, query.points, query.lattice, hypothesis.T_map_robot_unrefined);
     hypothesis.T_map_robot = refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
+    mode.share = refined.share;
   }
 }
 
@@ -101,14 +106,22 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
   for (std::size_t m = 0; m < maps.size(); ++m) {
     if (maps[m].domain(index).poses == 0) continue;
     const EndPoints points = make_end_points(scan, maps[m].lattice.resolution_m);
-    Query query{.map = maps[m].map, .scan = scan, .points = points, .lattice = maps[m].lattice,
-                .domain = maps[m].domain(index), .options = options, .threads = threads, .deadline = {}};
+    Query query{.map = maps[m].map,
+                .scan = scan,
+                .points = points,
+                .lattice = maps[m].lattice,
+                .domain = maps[m].domain(index),
+                .options = options,
+                .threads = threads,
+                .deadline = {}};
     if (options.time_budget_s > 0.0)
-      query.deadline = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.time_budget_s));
+      query.deadline = start + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(options.time_budget_s));
     const Proposal proposal = propose(query, method, result);
     Modes modes = [&] {
       const StageTimer rank_timer(result.times.rank_ms);
-      return find_modes(query, proposal.candidates, static_cast<std::size_t>(options.max_hypotheses));
+      return find_modes(query, proposal.candidates,
+                        static_cast<std::size_t>(std::max(options.max_hypotheses, least_modes)));
     }();
     refine_modes(query, modes, result);
     verify_modes(query, modes, result);
@@ -122,23 +135,28 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
 
 void require_on_map(const std::vector<PreparedQuestion>& maps, std::size_t priors) {
   for (std::size_t i = 0; i < priors; ++i) {
-    const bool on_map = std::any_of(maps.begin(), maps.end(), [i](const PreparedQuestion& map) { return map.domains[i].on_map; });
+    const bool on_map = std::any_of(maps.begin(), maps.end(),
+                                    [i](const PreparedQuestion& map) { return map.domains[i].on_map; });
     if (!on_map)
       throw Error(ErrorCode::invalid_argument,
                   "prior" + (priors > 1 ? " " + std::to_string(i) : "") + " lies entirely off the map");
   }
 }
 
-std::vector<PreparedQuestion> prepare_questions(std::span<const PreparedMap> maps, std::span<const PosePrior> priors,
+std::vector<PreparedQuestion> prepare_questions(std::span<const PreparedMap> maps,
+                                                std::span<const PosePrior> priors,
                                                 const SearchOptions& options) {
   std::vector<PreparedQuestion> questions;
   for (const PreparedMap& map : maps) {
     map.prepare();
-    PreparedQuestion question{.map = map.state(),
-                              .lattice = make_lattice(map.grid(), options.translation_step_m, options.rotation_step_rad),
-                              .domains = std::vector<Domain>(priors.size())};
+    PreparedQuestion question{
+        .map = map.state(),
+        .lattice = make_lattice(map.grid(), options.translation_step_m, options.rotation_step_rad),
+        .domains = std::vector<Domain>(priors.size())};
     const SharedMask free = question.map.free_mask(options.robot_radius_m, question.lattice.step_cells);
-    parallel_for(priors.size(), options.threads, [&](std::size_t i) { question.domains[i] = make_domain(priors[i], question.lattice, free); });
+    parallel_for(priors.size(), options.threads, [&](std::size_t i) {
+      question.domains[i] = make_domain(priors[i], question.lattice, free);
+    });
     questions.push_back(std::move(question));
   }
   require_on_map(questions, priors.size());
@@ -157,7 +175,8 @@ std::vector<SearchResult> search(std::span<const PreparedMap> maps, std::span<co
   if (maps.empty()) throw Error(ErrorCode::invalid_argument, "search: no map");
   if (priors.size() != 1 && priors.size() != scans.size())
     throw Error(ErrorCode::invalid_argument, "search: " + std::to_string(priors.size()) + " priors for " +
-                                                 std::to_string(scans.size()) + " scans, expected 1 or one per scan");
+                                                 std::to_string(scans.size()) +
+                                                 " scans, expected 1 or one per scan");
   for (const PosePrior& prior : priors) validate(prior);
   for (const Scan& scan : scans) validate(scan);
   (void)active_isa();
@@ -187,7 +206,8 @@ std::vector<SearchResult> search(const PreparedMap& map, const PosePrior& prior,
   return search(std::span(&map, 1), std::span(&prior, 1), scans, options);
 }
 
-SearchResult search(const PreparedMap& map, const PosePrior& prior, const Scan& scan, const SearchOptions& options) {
+SearchResult search(const PreparedMap& map, const PosePrior& prior, const Scan& scan,
+                    const SearchOptions& options) {
   return search(map, prior, std::span(&scan, 1), options).front();
 }
 
@@ -202,9 +222,12 @@ std::span<const MethodInfo> methods() {
 
 std::string_view to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::found: return "found";
-    case Verdict::ambiguous: return "ambiguous";
-    case Verdict::lost: return "lost";
+    case Verdict::found:
+      return "found";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::lost:
+      return "lost";
   }
   return "unknown";
 }

@@ -18,26 +18,33 @@ std::uint8_t to_level(std::uint8_t value) {
   return static_cast<std::uint8_t>((value * kernels::bound_levels + 254) / 255);
 }
 
-std::vector<std::uint8_t> reduce(std::span<const std::uint8_t> in, int cols, int rows, int factor, int out_cols, int out_rows) {
+std::vector<std::uint8_t> reduce(std::span<const std::uint8_t> in, int cols, int rows, int factor,
+                                 int out_cols, int out_rows) {
   std::vector<std::uint8_t> out(static_cast<std::size_t>(out_cols) * static_cast<std::size_t>(out_rows));
   const auto width = static_cast<std::size_t>(cols);
   parallel_for(static_cast<std::size_t>(out_rows), 0, [&](std::size_t r) {
     const std::size_t first = r * static_cast<std::size_t>(factor);
-    const std::size_t last = std::min(first + static_cast<std::size_t>(factor), static_cast<std::size_t>(rows));
+    const std::size_t last =
+        std::min(first + static_cast<std::size_t>(factor), static_cast<std::size_t>(rows));
     std::vector<std::uint8_t> tallest(in.begin() + static_cast<std::ptrdiff_t>(first * width),
                                       in.begin() + static_cast<std::ptrdiff_t>((first + 1) * width));
     for (std::size_t row = first + 1; row < last; ++row)
       kernels::maximum(tallest.data(), in.data() + row * width, width, tallest.data());
-    kernels::reduce_max(tallest.data(), width, static_cast<std::size_t>(factor), out.data() + r * static_cast<std::size_t>(out_cols));
+    kernels::reduce_max(tallest.data(), width, static_cast<std::size_t>(factor),
+                        out.data() + r * static_cast<std::size_t>(out_cols));
   });
   return out;
 }
 
-int divide_up(int a, int b) { return (a + b - 1) / b; }
+int divide_up(int a, int b) {
+  return (a + b - 1) / b;
+}
 
 }  // namespace
 
-int BoundTable::window_halves(int index) { return sizes[static_cast<std::size_t>(index)]; }
+int BoundTable::window_halves(int index) {
+  return sizes[static_cast<std::size_t>(index)];
+}
 
 int BoundTable::window_index(int halves) {
   for (int i = 0; i < window_sizes; ++i)
@@ -64,14 +71,16 @@ BoundTable::BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, i
       for (int p = 0; p < padded_cols; ++p) {
         const int first = std::max(0, p - margin);
         const int last = std::min(half_cols, p - margin + size);
-        if (first < last) across[r * width + static_cast<std::size_t>(p)] = *std::max_element(in + first, in + last);
+        if (first < last)
+          across[r * width + static_cast<std::size_t>(p)] = *std::max_element(in + first, in + last);
       }
     });
     parallel_for(static_cast<std::size_t>(padded_rows), 0, [&](std::size_t q) {
       const int row_half = static_cast<int>(q) - margin;
       std::vector<std::uint8_t> tallest(width);
       for (int r = std::max(0, row_half); r < std::min(half_rows, row_half + size); ++r)
-        kernels::maximum(tallest.data(), across.data() + static_cast<std::size_t>(r) * width, width, tallest.data());
+        kernels::maximum(tallest.data(), across.data() + static_cast<std::size_t>(r) * width, width,
+                         tallest.data());
       const int phase_row = row_half & 1;
       const int row = (row_half - phase_row) / phases + pad_rows;
       for (int p = 0; p < padded_cols; ++p) {
@@ -102,7 +111,8 @@ kernels::WindowPlanes WindowTables::planes() const {
 
 WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells) {
   constexpr std::size_t gather_slack = 4;  // bytes that a four-byte load may read past the last one
-  WindowTables tables{.width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_4 = {}};
+  WindowTables tables{
+      .width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_4 = {}};
   const auto width = static_cast<std::size_t>(width_cells);
   const std::size_t stride = width + 2 * block_cells;
   const std::size_t rows = static_cast<std::size_t>(height_cells) + 2 * block_cells;
@@ -110,7 +120,8 @@ WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_c
   tables.column_of_4.resize(stride * rows);
   const std::vector<std::uint8_t> nothing(width);
   const auto field_row = [&](std::size_t padded_row) {
-    const bool inside = padded_row >= block_cells && padded_row < block_cells + static_cast<std::size_t>(height_cells);
+    const bool inside =
+        padded_row >= block_cells && padded_row < block_cells + static_cast<std::size_t>(height_cells);
     return inside ? field.data() + (padded_row - block_cells) * width : nothing.data();
   };
   parallel_for(rows, 0, [&](std::size_t r) {
@@ -127,7 +138,8 @@ WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_c
   return tables;
 }
 
-BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells, int block_cells) {
+BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells,
+                            int block_cells) {
   const int half = block_cells / BoundTable::phases;
   const int cols = divide_up(width_cells, half);
   const int rows = divide_up(height_cells, half);

@@ -53,10 +53,13 @@ struct WindowTables {
   std::vector<std::uint32_t> column_of_4;
 
   [[nodiscard]] kernels::WindowPlanes planes() const;
-  [[nodiscard]] std::size_t memory_bytes() const { return window_max.capacity() + 4 * column_of_4.capacity(); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return window_max.capacity() + 4 * column_of_4.capacity();
+  }
 };
 
 WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells);
-BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells, int block_cells);
+BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells,
+                            int block_cells);
 
 }  // namespace landfall::internal

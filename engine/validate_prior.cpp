@@ -17,12 +17,14 @@ void require_finite(const char* field, double value) {
 }
 
 void require_width(const char* field, double value) {
-  if (!std::isfinite(value) || value < 0.0) fail(field, std::to_string(value), "a number that is not negative");
+  if (!std::isfinite(value) || value < 0.0)
+    fail(field, std::to_string(value), "a number that is not negative");
 }
 
 void require_pose(const char* field, const Pose2& pose) {
   if (!is_finite(pose))
-    fail(field, std::to_string(pose.x_m) + ", " + std::to_string(pose.y_m) + ", " + std::to_string(pose.theta_rad),
+    fail(field,
+         std::to_string(pose.x_m) + ", " + std::to_string(pose.y_m) + ", " + std::to_string(pose.theta_rad),
          "finite numbers");
 }
 
@@ -97,6 +99,8 @@ void check_nested(const PosePrior& prior, int depth) {
 
 }  // namespace
 
-void validate(const PosePrior& prior) { check_nested(prior, 0); }
+void validate(const PosePrior& prior) {
+  check_nested(prior, 0);
+}
 
 }  // namespace landfall

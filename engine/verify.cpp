@@ -25,11 +25,13 @@ std::vector<ValidBeam> valid_beams(const Scan& scan, double resolution_m) {
   for (std::size_t b = 0; b < scan.ranges_m.size(); ++b) {
     const Reading reading = classify(sensor.beams[b], scan.ranges_m[b]);
     if (reading == Reading::invalid) continue;
-    const double noise_m = sensor.range_noise_m + sensor.range_noise_relative * scan.ranges_m[b];
+    const double seen_m = std::min<double>(scan.ranges_m[b], sensor.beams[b].range_max_m);
+    const double noise_m = sensor.range_noise_m + sensor.range_noise_relative * seen_m;
     if (!beams.empty()) {
       const Beam& last = sensor.beams[beams.back().beam];
       beams.back().next_is_neighbour =
-          angle_distance(last.T_robot_beam.theta_rad, sensor.beams[b].T_robot_beam.theta_rad) < neighbour_rad &&
+          angle_distance(last.T_robot_beam.theta_rad, sensor.beams[b].T_robot_beam.theta_rad) <
+              neighbour_rad &&
           translation_distance(last.T_robot_beam, sensor.beams[b].T_robot_beam) < resolution_m;
     }
     beams.push_back({.beam = b,

@@ -52,9 +52,8 @@ void TileOffsets(const BoundPlanes& planes, const BoundPoints& points, int tile_
 // Adds up to eight points' bytes to the tile's 16-bit sums: the bytes are summed as bytes first.
 // Sums are kept apart for even and odd columns: word w of a row's vector holds column 2 w (even).
 HWY_INLINE void AddEightPoints(const std::uint8_t* HWY_RESTRICT data, std::int32_t stride,
-                               const std::int32_t* HWY_RESTRICT offset, std::int32_t count,
-                               std::size_t part, std::uint16_t* HWY_RESTRICT even,
-                               std::uint16_t* HWY_RESTRICT odd) {
+                               const std::int32_t* HWY_RESTRICT offset, std::int32_t count, std::size_t part,
+                               std::uint16_t* HWY_RESTRICT even, std::uint16_t* HWY_RESTRICT odd) {
   const ByteTag d;
   const WordTag d_word;
   const std::size_t lanes = hn::Lanes(d);

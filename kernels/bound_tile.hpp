@@ -17,7 +17,7 @@ inline constexpr int bound_levels = 31;
 // zeros where it is off the map.
 struct BoundPlanes {
   const std::uint8_t* data = nullptr;
-  std::int32_t stride = 0;  // bytes a row
+  std::int32_t stride = 0;    // bytes a row
   std::int32_t last_col = 0;  // a tile begins in columns 0 .. last_col and rows 0 .. last_row, padding
   std::int32_t last_row = 0;  // included; the outermost tiles are empty
 };

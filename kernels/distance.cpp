@@ -46,8 +46,8 @@ void clamped_row(const std::uint16_t* column_distance, int width, int radius, st
 
 void exact_row(const std::uint16_t* column_distance, int width, int cap, std::int32_t* scratch,
                std::int32_t* squared) {
-  std::int32_t* apex = scratch;                // columns whose parabolas form the envelope
-  std::int32_t* from = scratch + width + 1;    // first column where each of them is lowest
+  std::int32_t* apex = scratch;              // columns whose parabolas form the envelope
+  std::int32_t* from = scratch + width + 1;  // first column where each of them is lowest
   const auto height_at = [&](std::int64_t c) {
     const std::int64_t up = column_distance[c];
     return up * up;
@@ -64,7 +64,8 @@ void exact_row(const std::uint16_t* column_distance, int width, int cap, std::in
       // First column at which c's parabola lies below a's.
       const std::int64_t numerator = (height_at(c) + std::int64_t{c} * c) - (height_at(a) + a * a);
       const std::int64_t twice = 2 * (std::int64_t{c} - a);
-      const std::int64_t meet = numerator >= 0 ? numerator / twice + 1 : -((-numerator + twice - 1) / twice) + 1;
+      const std::int64_t meet =
+          numerator >= 0 ? numerator / twice + 1 : -((-numerator + twice - 1) / twice) + 1;
       if (meet <= from[count - 1]) {
         --count;
         continue;
@@ -86,7 +87,8 @@ void exact_row(const std::uint16_t* column_distance, int width, int cap, std::in
     }
     while (k + 1 < count && from[k + 1] <= c) ++k;
     const std::int64_t across = std::int64_t{c} - apex[k];
-    squared[c] = static_cast<std::int32_t>(std::min<std::int64_t>(far_squared, across * across + height_at(apex[k])));
+    squared[c] =
+        static_cast<std::int32_t>(std::min<std::int64_t>(far_squared, across * across + height_at(apex[k])));
   }
 }
 

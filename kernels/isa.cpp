@@ -36,11 +36,14 @@ const char* isa_name() {
 
 bool select_isa(const char* name) {
   const std::string_view wanted = name == nullptr ? "" : name;
-  const bool plain = wanted == "SCALAR";
-  const std::int64_t target = wanted.empty() || plain ? 1 : find_target(wanted);
-  if (target == 0) return false;
-  hwy::DisableTargets(target - 1);
-  scalar = plain;
+  std::int64_t disabled = 0;  // none: the best
+  if (!wanted.empty() && wanted != "SCALAR") {
+    const std::int64_t target = find_target(wanted);
+    if (target == 0) return false;
+    disabled = target - 1;
+  }
+  scalar = wanted == "SCALAR";
+  hwy::DisableTargets(disabled);
   return true;
 }
 

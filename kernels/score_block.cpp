@@ -78,8 +78,10 @@ HWY_INLINE void AddPoints(const WindowPlanes& planes, const std::int32_t* index,
   auto upper = hn::Load(d, sums + 32);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t* window = planes.column_of_4 + index[i];
-    lower = hn::Add(lower, hn::PromoteTo(d, hn::LoadU(d_byte, reinterpret_cast<const std::uint8_t*>(window))));
-    upper = hn::Add(upper, hn::PromoteTo(d, hn::LoadU(d_byte, reinterpret_cast<const std::uint8_t*>(window + up))));
+    lower =
+        hn::Add(lower, hn::PromoteTo(d, hn::LoadU(d_byte, reinterpret_cast<const std::uint8_t*>(window))));
+    upper = hn::Add(upper,
+                    hn::PromoteTo(d, hn::LoadU(d_byte, reinterpret_cast<const std::uint8_t*>(window + up))));
   }
   hn::Store(lower, d, sums);
   hn::Store(upper, d, sums + 32);

@@ -10,9 +10,9 @@ void maximum(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, st
 
 void sliding_max_8(const std::uint8_t* in, std::size_t count, std::uint8_t* scratch, std::uint8_t* out) {
   if (count < 8) return;
-  maximum(in, in + 1, count - 1, out);               // windows of 2
-  maximum(out, out + 2, count - 3, scratch);         // of 4
-  maximum(scratch, scratch + 4, count - 7, out);     // of 8
+  maximum(in, in + 1, count - 1, out);            // windows of 2
+  maximum(out, out + 2, count - 3, scratch);      // of 4
+  maximum(scratch, scratch + 4, count - 7, out);  // of 8
 }
 
 void interleave_4(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, const std::uint8_t* d,

@@ -27,7 +27,8 @@ class HeadingScorer {
     for (int row = 0; row < rows; ++row) {
       kernels::score_row(query_.map.field().data(), lattice.width_cells, lattice.height_cells,
                          block_row * block_cells + row, cells_.col.data(), cells_.row.data(),
-                         query_.points.size(), partial_.data(), scores_.data() + static_cast<std::size_t>(row) * width);
+                         query_.points.size(), partial_.data(),
+                         scores_.data() + static_cast<std::size_t>(row) * width);
     }
     for (int col = allowed.first_col; col < allowed.first_col + allowed.cols; ++col) {
       const std::uint64_t word = allowed.at(col, block_row);
@@ -35,7 +36,8 @@ class HeadingScorer {
       std::int32_t block[kernels::block_poses] = {};
       const int cols = std::min(block_cells, lattice.width_cells - col * block_cells);
       for (int row = 0; row < rows; ++row)
-        std::copy_n(scores_.begin() + row * lattice.width_cells + col * block_cells, cols, block + row * block_cells);
+        std::copy_n(scores_.begin() + row * lattice.width_cells + col * block_cells, cols,
+                    block + row * block_cells);
       const Candidate best = best_of_block(block, word, heading_, block_row, col);
       if (best.score > 0) found.push_back(best);
     }

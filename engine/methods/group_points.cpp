@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace landfall::internal {
 namespace {
@@ -12,8 +13,8 @@ struct Offsets {
   int most;
 };
 
-// All cell offsets that `center` can have while it moves by up to `side` sideways and towards 0 by the
-// arc's sagitta (the factor cos_half <= 1).
+// All cell offsets that `center` can have while it moves by up to `side` sideways and towards 0 (and
+// beyond, where cos_half is negative) by the arc's sagitta.
 Offsets offsets_over(double center, double side, double cos_half) {
   constexpr double rounding = 1e-6;  // far above double's error at a million cells
   const double inner = center * cos_half;
@@ -21,13 +22,15 @@ Offsets offsets_over(double center, double side, double cos_half) {
           static_cast<int>(std::floor(0.5 + std::max(center, inner) + side + rounding))};
 }
 
-int floor_divide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+int floor_divide(int a, int b) {
+  return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
 
 }  // namespace
 
 void GroupPoints::merge(std::int32_t plane, std::int32_t col, std::int32_t row) {
-  const auto key = static_cast<std::uint32_t>(plane) * 2654435761U ^ static_cast<std::uint32_t>(col) * 40503U ^
-                   static_cast<std::uint32_t>(row) * 2246822519U;
+  const auto key = static_cast<std::uint32_t>(plane) * 2654435761U ^
+                   static_cast<std::uint32_t>(col) * 40503U ^ static_cast<std::uint32_t>(row) * 2246822519U;
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t at = (key ^ key >> 15U) & mask;; at = (at + 1) & mask) {
     const std::int32_t i = slots_[at];
@@ -63,13 +66,15 @@ void GroupPoints::make_lists() {
   scratch_.resize(merged_.size() + 16);
 }
 
-void GroupPoints::build(const EndPoints& points, const Lattice& lattice, const BoundTable& table, int first, int last) {
+void GroupPoints::build(const EndPoints& points, const Lattice& lattice, const BoundTable& table, int first,
+                        int last) {
   const double step_rad = lattice.heading_step_rad();
   const double center_rad = 0.5 * (first + last - 1) * step_rad;
   const double half_rad = 0.5 * (last - 1 - first) * step_rad;
   const double c = std::cos(center_rad);
   const double s = std::sin(center_rad);
-  const double sin_half = std::sin(half_rad);
+  // Beyond a quarter turn every direction is met.
+  const double sin_half = half_rad >= std::numbers::pi / 2.0 ? 1.0 : std::sin(half_rad);
   const double cos_half = std::cos(half_rad);
   const int block = table.block_cells();
   const int half = table.half_cells();
@@ -107,12 +112,6 @@ kernels::BoundPoints GroupPoints::view() const {
           .row = row_.data(),
           .list_end = list_end_.data(),
           .lists = static_cast<std::int32_t>(list_end_.size())};
-}
-
-int GroupPoints::threshold(std::int32_t score) const {
-  const std::int64_t levels = (std::int64_t{score} * kernels::bound_levels + 254) / 255;
-  const std::int64_t left = levels - std::int64_t{unbounded_} * kernels::bound_levels;
-  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 65535));
 }
 
 }  // namespace landfall::internal

@@ -10,6 +10,11 @@
 
 namespace landfall::internal {
 
+// A score in units of the bound tables, rounded up: a pose of that score has a table sum of at least this.
+inline std::int64_t table_units(std::int32_t score) {
+  return (std::int64_t{score} * kernels::bound_levels + 254) / 255;
+}
+
 class GroupPoints {
  public:
   // Headings [first, last) of the lattice.
@@ -18,9 +23,6 @@ class GroupPoints {
   [[nodiscard]] kernels::BoundPoints view() const;
   // Points whose end moves over more cells than the widest window: they bound nothing, and count in full.
   [[nodiscard]] std::int32_t unbounded() const { return unbounded_; }
-  // Table sums from here on cannot be excluded when a pose must score `score`.
-  [[nodiscard]] int threshold(std::int32_t score) const;
-  // No table sum is a bound above this score.
   std::vector<std::int32_t>& scratch() { return scratch_; }
 
  private:

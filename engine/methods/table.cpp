@@ -11,7 +11,9 @@ namespace {
 constexpr std::string_view default_method = "branch_and_bound";
 
 constexpr std::array<Method, 2> table{{
-    {.info = {.name = "exhaustive", .summary = "scores every pose of the prior's lattice; the oracle", .source = ""},
+    {.info = {.name = "exhaustive",
+              .summary = "scores every pose of the prior's lattice; the oracle",
+              .source = ""},
      .propose = propose_exhaustive},
     {.info = {.name = "branch_and_bound",
               .summary = "the same optimum, proven, by admissible bounds over x, y and heading; the default",
@@ -21,7 +23,9 @@ constexpr std::array<Method, 2> table{{
 
 }  // namespace
 
-std::span<const Method> method_table() { return table; }
+std::span<const Method> method_table() {
+  return table;
+}
 
 const Method& find_method(std::string_view name) {
   const std::string_view wanted = name == "auto" ? default_method : name;

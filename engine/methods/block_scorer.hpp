@@ -1,0 +1,45 @@
+// Blocks of 8 x 8 poses at one heading: bounded, then scored. One per thread.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "engine/query.hpp"
+
+namespace landfall::internal {
+
+// What the threads of one search share.
+struct SharedSearch {
+  const Query& query;
+  kernels::WindowPlanes planes;
+  std::vector<HeadingCells> heading_cells;  // [heading], where the prior has poses
+  std::int32_t margin = 0;
+  std::atomic<std::int32_t> best{0};
+
+  // What a pose must score to be worth looking for.
+  [[nodiscard]] std::int32_t lowest() const {
+    return lowest_rival(best.load(std::memory_order_relaxed), margin);
+  }
+  void raise_best(std::int32_t score);
+};
+
+class BlockScorer {
+ public:
+  explicit BlockScorer(SharedSearch& search) : search_(search), index_(search.query.points.size()) {}
+
+  // The block at every heading of [first, last).
+  void visit(int first_heading, int last_heading, int block_row, int block_col);
+
+  std::vector<Candidate> candidates;
+  std::int64_t bounds_computed = 0;
+  std::int64_t poses_scored = 0;
+
+ private:
+  void visit(int heading, std::uint64_t allowed, int block_row, int block_col);
+
+  SharedSearch& search_;
+  std::vector<std::int32_t> index_;
+};
+
+}  // namespace landfall::internal
