@@ -15,8 +15,8 @@ namespace landfall::internal {
 
 // Nats for a share of 1, from the number of echoes.
 double evidence_nats(std::size_t points);
-// Nats for an explained share of 1.
-inline constexpr double explained_nats = 5.0;
+// What ray casting adds: the share that a beam seen through a wall costs, and one blocked earns back.
+inline constexpr double ray_share = 0.1;
 
 // What lies this many nats below the best pose is not looked for, and weighs next to nothing.
 inline constexpr double rival_nats = 4.5;

@@ -16,6 +16,12 @@ double log_add(double a, double b) {
   return std::isinf(b) ? a : a + std::log1p(std::exp(b - a));
 }
 
+// What ray casting adds to the score: an end point well behind a wall counts against the pose, even
+// where it meets another wall; one well before the wall is held against it less than the field does.
+double share_of_rays(const Verification& verification) {
+  return ray_share * (verification.blocked - verification.seen_through);
+}
+
 }  // namespace
 
 Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most) {
@@ -35,8 +41,12 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
     if (i < T_map_mode.size()) {
       found.modes[i].log_mass = log_add(found.modes[i].log_mass, log_mass);
     } else if (T_map_mode.size() < most) {
-      found.modes.push_back(
-          {.best = candidate, .log_mass = log_mass, .share = 0.0, .map_index = 0, .hypothesis = {}});
+      found.modes.push_back({.best = candidate,
+                             .log_mass = log_mass,
+                             .share = 0.0,
+                             .map_index = 0,
+                             .verification = {},
+                             .hypothesis = {}});
       T_map_mode.push_back(T_map_robot);
     } else {
       found.log_rest = log_add(found.log_rest, log_mass);
@@ -49,12 +59,10 @@ void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& resu
   std::vector<Mode> all;
   double log_total = nothing;
   for (const Modes& map : maps) {
-    double most_explained = 0.0;
-    for (const Mode& mode : map.modes) most_explained = std::max(most_explained, mode.hypothesis.explained);
-    log_total = log_add(log_total, map.log_rest + explained_nats * most_explained);
+    log_total = log_add(log_total, map.log_rest);
     for (Mode mode : map.modes) {
       const double lattice_share = share_of(mode.best.score, map.points);
-      mode.log_mass += map.nats * (mode.share - lattice_share) + explained_nats * mode.hypothesis.explained;
+      mode.log_mass += map.nats * (mode.share - lattice_share + share_of_rays(mode.verification));
       mode.share = lattice_share;
       log_total = log_add(log_total, mode.log_mass);
       all.push_back(std::move(mode));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/query.hpp"
+#include "engine/verify.hpp"
 
 namespace landfall::internal {
 
@@ -13,6 +14,7 @@ struct Mode {
   double log_mass = 0.0;  // prior x likelihood, summed over its candidates; natural logarithm
   double share = 0.0;     // of the best imaginable score, at the refined pose
   int map_index = 0;
+  Verification verification;
   Hypothesis hypothesis;  // filled in by refine and verify
 };
 

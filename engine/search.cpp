@@ -76,9 +76,12 @@ void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.verify_ms);
   std::vector<Pose2> T_map_robot;
   for (const Mode& mode : found.modes) T_map_robot.push_back(mode.hypothesis.T_map_robot);
-  const std::vector<double> explained = explained_shares(query.map, query.scan, T_map_robot);
-  for (std::size_t i = 0; i < explained.size(); ++i) found.modes[i].hypothesis.explained = explained[i];
-  result.counts.rays_cast += static_cast<std::int64_t>(explained.size()) * result.beams_valid;
+  const std::vector<Verification> verified = verify(query.map, query.scan, T_map_robot);
+  for (std::size_t i = 0; i < verified.size(); ++i) {
+    found.modes[i].verification = verified[i];
+    found.modes[i].hypothesis.explained = verified[i].explained;
+  }
+  result.counts.rays_cast += static_cast<std::int64_t>(verified.size()) * result.beams_valid;
 }
 
 // Why there is nothing to go by; empty where there is.

@@ -1,6 +1,7 @@
 #include "engine/verify.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -43,22 +44,45 @@ std::vector<ValidBeam> valid_beams(const Scan& scan, double resolution_m) {
   return beams;
 }
 
-// How far the measured range is from what the map has around the beam; +inf: echo against no echo.
-float mismatch_m(const ValidBeam& beam, float before_m, float here_m, float after_m) {
-  constexpr float none = std::numeric_limits<float>::infinity();
-  const auto distance = [&](float simulated_m) {
-    if (!beam.echo) return std::isinf(simulated_m) ? 0.0F : none;
-    return std::isinf(simulated_m) ? none : std::abs(simulated_m - beam.range_m);
-  };
-  return std::min({distance(before_m), distance(here_m), distance(after_m)});
+// Measured less simulated range, for whichever of the three simulated ones fits best; +-inf: an echo
+// where the map has none, and the reverse.
+float mismatch_m(const ValidBeam& beam, const std::array<float, 3>& simulated_m) {
+  float least = std::numeric_limits<float>::infinity();
+  for (const float range_m : simulated_m) {
+    float off = 0.0F;
+    if (beam.echo != !std::isinf(range_m))
+      off = beam.echo ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
+    else if (beam.echo)
+      off = beam.range_m - range_m;
+    if (std::abs(off) <= std::abs(least)) least = off;
+  }
+  return least;
+}
+
+Verification judge(const std::vector<ValidBeam>& valid, std::span<const float> simulated_m) {
+  constexpr float well_off_m = 0.5F;
+  Verification sums;
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    const float here_m = simulated_m[i];
+    const float before_m = i > 0 && valid[i - 1].next_is_neighbour ? simulated_m[i - 1] : here_m;
+    const float after_m = valid[i].next_is_neighbour ? simulated_m[i + 1] : here_m;
+    const float off_m = mismatch_m(valid[i], {before_m, here_m, after_m});
+    if (std::abs(off_m) <= valid[i].tolerance_m) sums.explained += 1.0;
+    if (valid[i].echo && off_m < -valid[i].tolerance_m) sums.blocked += 1.0;
+    if (valid[i].echo && off_m > std::max(well_off_m, valid[i].tolerance_m)) sums.seen_through += 1.0;
+  }
+  const auto count = static_cast<double>(valid.size());
+  return {.explained = sums.explained / count,
+          .blocked = sums.blocked / count,
+          .seen_through = sums.seen_through / count};
 }
 
 }  // namespace
 
-std::vector<double> explained_shares(const PreparedState& map, const Scan& scan,
-                                     std::span<const Pose2> T_map_robot) {
+std::vector<Verification> verify(const PreparedState& map, const Scan& scan,
+                                 std::span<const Pose2> T_map_robot) {
   const std::vector<ValidBeam> valid = valid_beams(scan, map.grid().resolution_m);
-  std::vector<double> answers(T_map_robot.size());
+  std::vector<Verification> answers(T_map_robot.size());
   if (valid.empty() || T_map_robot.empty()) return answers;
   const std::vector<raycast::Beam> all = to_raycast(*scan.sensor);
   std::vector<raycast::Beam> beams;
@@ -67,16 +91,8 @@ std::vector<double> explained_shares(const PreparedState& map, const Scan& scan,
   for (const Pose2& pose : T_map_robot) poses.push_back(to_raycast(pose));
   std::vector<float> simulated_m(poses.size() * beams.size());
   map.scene().cast_fans(poses, beams, simulated_m);
-  for (std::size_t p = 0; p < poses.size(); ++p) {
-    const float* ranges_m = simulated_m.data() + p * beams.size();
-    for (std::size_t i = 0; i < valid.size(); ++i) {
-      const float before_m = i > 0 && valid[i - 1].next_is_neighbour ? ranges_m[i - 1] : ranges_m[i];
-      const float after_m = valid[i].next_is_neighbour ? ranges_m[i + 1] : ranges_m[i];
-      const float off_m = mismatch_m(valid[i], before_m, ranges_m[i], after_m);
-      if (off_m <= valid[i].tolerance_m) answers[p] += 1.0;
-    }
-    answers[p] /= static_cast<double>(valid.size());
-  }
+  for (std::size_t p = 0; p < poses.size(); ++p)
+    answers[p] = judge(valid, std::span(simulated_m).subspan(p * beams.size(), beams.size()));
   return answers;
 }
 

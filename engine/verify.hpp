@@ -9,11 +9,17 @@
 
 namespace landfall::internal {
 
-// The share of a scan's valid beams that the map explains, from each pose. A beam is explained where the
-// simulated range, or that of a neighbouring beam (edges, walls at grazing incidence), is the measured one
-// within the noise and the grid; a beam without echo, where nothing is hit within its maximum. Unknown cells
-// are no walls.
-std::vector<double> explained_shares(const PreparedState& map, const Scan& scan,
-                                     std::span<const Pose2> T_map_robot);
+// Shares of a scan's valid beams.
+struct Verification {
+  double explained = 0.0;     // the map says the same
+  double blocked = 0.0;       // an echo well before the wall: something stood there that the map lacks
+  double seen_through = 0.0;  // an echo well behind the wall: hardly to be had
+};
+
+// What the map says of a scan from each pose. A beam is explained where the simulated range, or that of
+// a neighbouring beam (edges, walls at grazing incidence), is the measured one within the noise and the
+// grid; a beam without echo, where nothing is hit within its maximum. Unknown cells are no walls.
+std::vector<Verification> verify(const PreparedState& map, const Scan& scan,
+                                 std::span<const Pose2> T_map_robot);
 
 }  // namespace landfall::internal
