@@ -7,7 +7,8 @@
 
 namespace landfall::internal {
 
-// Threads that `threads` asks for: itself, or all that the caller's arena offers for 0.
+// Threads that `threads` asks for: itself, as far as the machine has them, or all that the caller's
+// arena offers for 0.
 int thread_count(int threads);
 
 // body(i) for i in [0, count), on up to `threads` threads (0: all; 1: in this thread, in order).

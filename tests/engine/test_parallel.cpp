@@ -1,0 +1,103 @@
+#include "engine/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "landfall/error.hpp"
+#include "rooms.hpp"
+#include "same_answer.hpp"
+
+namespace landfall {
+namespace {
+
+using internal::parallel_for;
+
+TEST(ParallelFor, VisitsEveryIndexOnce) {
+  for (const int threads : {0, 1, 2, 7, 64}) {
+    for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
+      std::vector<std::atomic<int>> visits(count);
+      parallel_for(count, threads, [&](std::size_t i) { ++visits[i]; });
+      for (const std::atomic<int>& visit : visits) EXPECT_EQ(visit, 1) << threads << " threads, " << count;
+    }
+  }
+}
+
+TEST(ParallelFor, OneThreadGoesInOrder) {
+  std::vector<std::size_t> order;
+  parallel_for(5, 1, [&](std::size_t i) { order.push_back(i); });
+  EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+}
+
+TEST(ParallelFor, LetsAnExceptionOut) {
+  for (const int threads : {0, 1, 2}) {
+    const auto run = [&] {
+      parallel_for(100, threads, [](std::size_t i) {
+        if (i == 41) throw Error(ErrorCode::invalid_argument, "forty-one");
+      });
+    };
+    EXPECT_THROW(run(), Error) << threads;
+  }
+}
+
+TEST(ParallelFor, Nests) {
+  std::atomic<int> sum{0};
+  parallel_for(10, 2, [&](std::size_t i) {
+    parallel_for(10, 2, [&, i](std::size_t j) { sum += static_cast<int>(10 * i + j); });
+  });
+  EXPECT_EQ(sum, 4950);
+}
+
+// Nothing is printed where more threads are asked for than there are.
+TEST(ParallelFor, IsSilent) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_GE(internal::thread_count(0), 1);
+  EXPECT_LE(internal::thread_count(1000), 1000);
+  parallel_for(100, 1000, [](std::size_t) {});
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// Several callers find a map of which nothing is built yet, and all need everything at once.
+TEST(Search, CallersShareAFreshMap) {
+  const Scan scan =
+      testing::look(PreparedMap(testing::furnished_room()), testing::full_circle(90), {2.31, 3.17, 0.4});
+  SearchOptions options;
+  options.rotation_step_rad = 0.1;
+  const SearchResult expected = search(PreparedMap(testing::furnished_room()), {Anywhere{}}, scan, options);
+  ASSERT_EQ(expected.verdict, Verdict::found);
+  for (int round = 0; round < 5; ++round) {
+    const PreparedMap fresh(testing::furnished_room());
+    std::vector<SearchResult> results(6);
+    std::vector<std::thread> callers;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      callers.emplace_back([&, i] {
+        SearchOptions own = options;
+        own.method = i % 2 == 0 ? "branch_and_bound" : "exhaustive";
+        own.threads = static_cast<int>(i % 3);
+        own.robot_radius_m = i == 5 ? 1e-3 : 0.0;  // its own mask of free cells, the same cells
+        results[i] = search(fresh, {Anywhere{}}, scan, own);
+      });
+    }
+    for (std::thread& caller : callers) caller.join();
+    for (const SearchResult& result : results) testing::expect_same_answer(result, expected);
+  }
+}
+
+// A host that calls from its own parallel tasks is not held up by ours.
+TEST(Search, AnswersInsideTheCallersTasks) {
+  const PreparedMap map(testing::furnished_room());
+  const Scan scan = testing::look(map, testing::full_circle(90), {2.31, 3.17, 0.4});
+  SearchOptions options;
+  options.rotation_step_rad = 0.1;
+  std::vector<SearchResult> results(8);
+  const PreparedMap fresh(testing::furnished_room());
+  parallel_for(results.size(), 2,
+               [&](std::size_t i) { results[i] = search(fresh, {Anywhere{}}, scan, options); });
+  for (const SearchResult& result : results) testing::expect_same_answer(result, results.front());
+}
+
+}  // namespace
+}  // namespace landfall
