@@ -13,12 +13,11 @@ namespace {
 
 using internal::odometry_sigma;
 using internal::OdometrySigma;
+using internal::pose_sigma_m;
+using internal::pose_sigma_rad;
 
-// A hypothesis is itself only good to about this much.
-constexpr double pose_sigma_m = 0.1;
-constexpr double pose_sigma_rad = 0.03;
 // Less probable hypotheses are not told apart by their own probability.
-constexpr double least_probability = 1e-3;
+constexpr double least_probability = 1e-4;
 
 struct Step {
   Pose2 T_before_after;  // odometry

@@ -12,6 +12,10 @@ struct OdometrySigma {
   double rotation_rad;
 };
 
+// A hypothesis is itself only good to about this much.
+inline constexpr double pose_sigma_m = 0.1;
+inline constexpr double pose_sigma_rad = 0.03;
+
 // One sigma of the error of an increment.
 inline OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& T_before_after) {
   const double driven_m = std::hypot(T_before_after.x_m, T_before_after.y_m);

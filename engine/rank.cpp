@@ -9,6 +9,8 @@
 namespace landfall::internal {
 namespace {
 
+constexpr double explains = 0.5;
+constexpr double unexplained_nats = 20.0;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
 double log_add(double a, double b) {
@@ -25,29 +27,29 @@ double share_of_rays(const Verification& verification) {
 }  // namespace
 
 Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most) {
+  constexpr std::size_t most_counted = 64;
   const std::size_t points = query.points.size();
   Modes found{.modes = {}, .log_rest = nothing, .nats = evidence_nats(points), .points = points};
   std::vector<Pose2> T_map_mode;
   for (const Candidate& candidate : candidates) {
     const Pose2 T_map_robot = query.lattice.T_map_robot(candidate.pose);
+    const bool known = std::any_of(T_map_mode.begin(), T_map_mode.end(), [&](const Pose2& T_map_other) {
+      return translation_distance(T_map_other, T_map_robot) < query.options.distinct_translation_m &&
+             angle_distance(T_map_other.theta_rad, T_map_robot.theta_rad) <
+                 query.options.distinct_rotation_rad;
+    });
+    if (known) continue;
+    if (T_map_mode.size() >= most_counted) break;
+    T_map_mode.push_back(T_map_robot);
     const double log_mass = found.nats * share_of(candidate.score, points) +
                             query.domain.log_prior(query.lattice, candidate.pose);
-    std::size_t i = 0;
-    while (i < T_map_mode.size() &&
-           (translation_distance(T_map_mode[i], T_map_robot) >= query.options.distinct_translation_m ||
-            angle_distance(T_map_mode[i].theta_rad, T_map_robot.theta_rad) >=
-                query.options.distinct_rotation_rad))
-      ++i;
-    if (i < T_map_mode.size()) {
-      found.modes[i].log_mass = log_add(found.modes[i].log_mass, log_mass);
-    } else if (T_map_mode.size() < most) {
+    if (found.modes.size() < most) {
       found.modes.push_back({.best = candidate,
                              .log_mass = log_mass,
                              .share = 0.0,
                              .map_index = 0,
                              .verification = {},
                              .hypothesis = {}});
-      T_map_mode.push_back(T_map_robot);
     } else {
       found.log_rest = log_add(found.log_rest, log_mass);
     }
@@ -58,11 +60,16 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
 void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result) {
   std::vector<Mode> all;
   double log_total = nothing;
+  bool any_explains = false;
+  for (const Modes& map : maps)
+    for (const Mode& mode : map.modes) any_explains = any_explains || mode.hypothesis.explained >= explains;
   for (const Modes& map : maps) {
     log_total = log_add(log_total, map.log_rest);
     for (Mode mode : map.modes) {
       const double lattice_share = share_of(mode.best.score, map.points);
       mode.log_mass += map.nats * (mode.share - lattice_share + share_of_rays(mode.verification));
+      // A pose that would be lost by itself is no rival of one that explains the scan.
+      if (any_explains && mode.hypothesis.explained < explains) mode.log_mass -= unexplained_nats;
       mode.share = lattice_share;
       log_total = log_add(log_total, mode.log_mass);
       all.push_back(std::move(mode));
@@ -84,7 +91,6 @@ void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& resu
     result.hypotheses.push_back(mode.hypothesis);
   }
   constexpr double sure = 0.95;
-  constexpr double explains = 0.5;
   if (result.hypotheses.empty()) {
     result.verdict = Verdict::lost;
     result.reason = result.proven ? "no echo falls near a wall from any pose of the prior"

@@ -8,10 +8,11 @@
 
 namespace landfall::internal {
 
-// A peak of the score and all candidates nearer to it than to any better peak.
+// A peak of the score. All peaks are taken to be equally wide, so that the likelihood at the top stands for
+// the mass: sums over the lattice favoured blurred matches over sharp ones (intel: five queries of 455).
 struct Mode {
   Candidate best;
-  double log_mass = 0.0;  // prior x likelihood, summed over its candidates; natural logarithm
+  double log_mass = 0.0;  // prior x likelihood; natural logarithm
   double share = 0.0;     // of the best imaginable score, at the refined pose
   int map_index = 0;
   Verification verification;
@@ -21,13 +22,13 @@ struct Mode {
 // What one map has to say of one scan.
 struct Modes {
   std::vector<Mode> modes;  // best score first
-  double log_rest = 0.0;    // mass of the candidates beyond the last mode
+  double log_rest = 0.0;    // mass of the modes beyond the last one
   double nats = 0.0;        // what a share of 1 is worth
   std::size_t points = 0;
 };
 
-// Greedy: the best candidate is a mode; each next one joins the first mode within both distances, or
-// becomes one. At most `most` modes.
+// Greedy: the best candidate is a mode, and so is each next one that is not within both distances of one
+// before it. The first `most` are kept.
 Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most);
 
 // Verified modes of all maps -> hypotheses in order, probabilities, verdict.

@@ -64,6 +64,25 @@ void bind_search(nb::module_& module) {
       "Per result the index of the hypothesis that odometry ties to its neighbours' (Viterbi), or -1 where\n"
       "it has none. Raises InvalidArgument where the lengths differ.");
 
+  nb::class_<Prediction>(module, "Prediction",
+                         "A result whose neighbours place the robot where it has no hypothesis.")
+      .def_ro("index", &Prediction::index, "Of the result.")
+      .def_ro("map_index", &Prediction::map_index)
+      .def_prop_ro("prior", [](const Prediction& self) { return PosePrior{self.prior}; });
+  module.def(
+      "predict",
+      [](const std::vector<SearchResult>& results, const std::vector<int>& choice,
+         const PosesArgument& T_odom_robot) {
+        const std::vector<Pose2> poses = poses_from(T_odom_robot, "predict");
+        const nb::gil_scoped_release released;
+        return predict(results, choice, poses);
+      },
+      "results"_a, "choice"_a, "T_odom_robot"_a,
+      "Where chosen hypotheses and odometry place a neighbour that has no hypothesis there: a list of\n"
+      "Prediction to search again. Raises InvalidArgument where the lengths differ.");
+  module.def("add_predicted", &add_predicted, "result"_a, "answer"_a, "map_index"_a,
+             "Adds the first hypothesis of `answer`, found under a prediction, to `result`.");
+
   module.def(
       "methods",
       [] {

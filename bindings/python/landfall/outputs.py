@@ -41,12 +41,12 @@ class ResultsFile:
             os.replace(self.part, self.path)
 
 
-def add_chosen(results: Path, choices: Sequence[int]) -> None:
-    """Adds "chosen" (the index of the consistent hypothesis, -1: none) to every line of results.jsonl."""
+def rewrite_chosen(results: Path, lines: Sequence[str], choices: Sequence[int]) -> None:
+    """results.jsonl anew, each line with "chosen": the index of the consistent hypothesis, -1: none."""
     part = results.with_name(results.name + ".part")
-    with results.open(encoding="utf-8") as lines, part.open("w", encoding="utf-8") as chosen_lines:
+    with part.open("w", encoding="utf-8") as chosen_lines:
         for line, choice in zip(lines, choices, strict=True):
-            chosen_lines.write(f'{line.rstrip()[:-1]}, "chosen": {choice}}}\n')
+            chosen_lines.write(f'{line[:-1]}, "chosen": {choice}}}\n')
     os.replace(part, results)
 
 

@@ -20,4 +20,18 @@ struct ConsistentOptions {
 std::vector<int> consistent(std::span<const SearchResult> results, std::span<const Pose2> T_odom_robot,
                             const ConsistentOptions& options = {});
 
+// Where a result's neighbours and odometry say that the robot must have been, but none of its hypotheses
+// is: ask that scan again under `prior` on map `map_index`, and add what comes to its hypotheses.
+struct Prediction {
+  std::size_t index = 0;  // of the result
+  Gaussian prior;
+  int map_index = 0;
+};
+// From each chosen hypothesis to the results before and after it. Same lengths; Error as above.
+std::vector<Prediction> predict(std::span<const SearchResult> results, std::span<const int> choice,
+                                std::span<const Pose2> T_odom_robot, const ConsistentOptions& options = {});
+// Adds the first hypothesis of `answer` (to the same scan, under a prediction) to `result`, with the
+// probability that its score deserves beside the best one there. Nothing where it has one nearby.
+void add_predicted(SearchResult& result, const SearchResult& answer, int map_index);
+
 }  // namespace landfall

@@ -8,7 +8,16 @@ from typing import Annotated
 
 import typer
 
-from landfall._landfall import Log, Scan, consistent
+from landfall._landfall import (
+    Log,
+    Prediction,
+    Scan,
+    SearchResult,
+    add_predicted,
+    consistent,
+    predict,
+    search_batch,
+)
 from landfall.commands.options import (
     LogFile,
     Maps,
@@ -31,10 +40,10 @@ from landfall.errors import InvalidArgument
 from landfall.interrupts import CleanStop
 from landfall.outputs import (
     ResultsFile,
-    add_chosen,
     make_folder,
     require_picture,
     require_writable,
+    rewrite_chosen,
     write_trajectory,
 )
 from landfall.progress import progress_bar
@@ -43,12 +52,16 @@ from landfall.searching import search_options
 from landfall.windows import (
     Composition,
     Query,
+    compose,
     odometry,
     scan_windows,
     single_queries,
     time_windows,
     with_motion,
 )
+
+RECONSIDERATIONS = 3  # rounds of asking again where the consistent sequence leads
+CONSISTENT_HYPOTHESES = 20  # to choose among, at least
 
 
 def run(
@@ -104,7 +117,7 @@ def run(
     options = search_options(
         method=method,
         threads=threads,
-        max_hypotheses=max_hypotheses,
+        max_hypotheses=max(max_hypotheses, CONSISTENT_HYPOTHESES) if consistent else max_hypotheses,
         time_budget_s=time_budget_s,
         translation_step_m=translation_step_m,
         rotation_step_rad=math.radians(rotation_step_deg),
@@ -138,7 +151,7 @@ def run(
                 stop=stop,
             )
         if consistent:
-            _choose(answers, scans, results)
+            _choose(answers, scans, question, results)
         if out is not None:
             write_trajectory(answers.trajectory(), out)
     print_table(tally.rows())
@@ -180,13 +193,45 @@ def _queries(
     return with_motion(scans, queries, min_motion_m) if min_motion_m > 0 else queries
 
 
-def _choose(answers: Answers, scans: list[Scan], results: Path | None) -> None:
-    """The most probable sequence of hypotheses, in place of each query's first."""
+def _choose(answers: Answers, scans: list[Scan], question: Question, results: Path | None) -> None:
+    """The most probable sequence of hypotheses, in place of each query's first.
+
+    Where that sequence leads to a place which a query did not list, the query is asked again there.
+    """
     kept = [answers.kept[position] for position in range(len(answers.queries))]
-    choices = consistent(kept, odometry([scans[query.last] for query in answers.queries]))
+    T_odom_robot = odometry([scans[query.last] for query in answers.queries])
+    choices = consistent(kept, T_odom_robot)
+    for _ in range(RECONSIDERATIONS):
+        predictions = predict(kept, choices, T_odom_robot)
+        if not predictions:
+            break
+        for prediction, answer in zip(
+            predictions, _ask_again(predictions, answers, scans, question), strict=True
+        ):
+            add_predicted(kept[prediction.index], answer, prediction.map_index)
+        choices = consistent(kept, T_odom_robot)
     answers.choose(choices)
     if results is not None:
-        add_chosen(results, choices)
+        rewrite_chosen(
+            results,
+            [result.to_json(query.last) for result, query in zip(kept, answers.queries, strict=True)],
+            choices,
+        )
+
+
+def _ask_again(
+    predictions: list[Prediction], answers: Answers, scans: list[Scan], question: Question
+) -> list[SearchResult]:
+    """Answers in the order of the predictions, each on its own map under its own prior."""
+    composites = compose(scans, [answers.queries[one.index] for one in predictions], question.composition)
+    found: dict[int, SearchResult] = {}
+    for map_index, prepared in enumerate(question.maps):
+        on_map = [i for i, one in enumerate(predictions) if one.map_index == map_index]
+        if on_map:
+            priors = [predictions[i].prior for i in on_map]
+            given = search_batch([prepared], priors, [composites[i] for i in on_map], question.options)
+            found.update(zip(on_map, given, strict=True))
+    return [found[i] for i in range(len(predictions))]
 
 
 def _evenly(count: int, wanted: int) -> set[int]:
