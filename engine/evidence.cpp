@@ -10,7 +10,7 @@ double evidence_nats(std::size_t points) {
 }
 
 double elsewhere_weight(double share, double explained) {
-  constexpr double even_sum = 1.42;
+  constexpr double even_sum = 1.4;
   constexpr double nats_per_sum = 30.0;
   constexpr double most_nats = 50.0;
   return std::exp(std::min(most_nats, nats_per_sum * (even_sum - share - explained)));

@@ -24,7 +24,7 @@ inline constexpr double rival_nats = 4.5;
 inline constexpr double unseen_weight = 0.01;
 
 // What weighs, beside a pose of this share and explained share, that the scan is from no place of the
-// map: a pose found by chance matches less well. Even odds where both add up to 1.42.
+// map: a pose found by chance matches less well. Even odds where both add up to 1.4.
 double elsewhere_weight(double share, double explained);
 
 inline double share_of(std::int32_t score, std::size_t points) {
