@@ -62,6 +62,15 @@ bool has_window(const PosePrior& prior) {
          std::any_of(mixture->components.begin(), mixture->components.end(), has_window);
 }
 
+// Hypotheses as probable as a neighbour of theirs (the last one's may be cut off) may swap places with it.
+bool is_tied(const SearchResult& result, std::size_t i) {
+  const auto equally_probable = [&](std::size_t j) {
+    return std::abs(result.hypotheses[i].probability - result.hypotheses[j].probability) <=
+           1e-6 * result.hypotheses[i].probability;
+  };
+  return i + 1 == result.hypotheses.size() || equally_probable(i + 1) || (i > 0 && equally_probable(i - 1));
+}
+
 void expect_moved(const SearchResult& moved, const SearchResult& original, const Pose2& T_world_map) {
   EXPECT_EQ(moved.verdict, original.verdict);
   EXPECT_EQ(moved.proven, original.proven);
@@ -71,8 +80,9 @@ void expect_moved(const SearchResult& moved, const SearchResult& original, const
     SCOPED_TRACE("hypothesis " + std::to_string(i));
     const Hypothesis& here = moved.hypotheses[i];
     const Hypothesis& there = original.hypotheses[i];
-    EXPECT_EQ(here.score, there.score);
     EXPECT_NEAR(here.probability, there.probability, 1e-6);
+    if (is_tied(original, i)) continue;
+    EXPECT_EQ(here.score, there.score);
     EXPECT_LT(translation_distance(here.T_map_robot_unrefined, T_world_map * there.T_map_robot_unrefined),
               1e-6);
     EXPECT_LT(translation_distance(here.T_map_robot, T_world_map * there.T_map_robot), 1e-6);
@@ -81,7 +91,7 @@ void expect_moved(const SearchResult& moved, const SearchResult& original, const
 }
 
 int check_moved(bool turned, std::uint64_t first_seed) {
-  int answered = 0;
+  int compared = 0;
   for (std::uint64_t seed = first_seed; seed < first_seed + 100; ++seed) {
     const World world = testing::small_world(seed);
     if (turned && has_window(world.prior)) continue;
@@ -96,17 +106,17 @@ int check_moved(bool turned, std::uint64_t first_seed) {
     const SearchResult moved =
         testing::answer_or_error(moved_map, Moved{T_world_map}(world.prior), world.scan, world.options);
     expect_moved(moved, original, T_world_map);
-    answered += original.hypotheses.empty() ? 0 : 1;
+    compared += original.hypotheses.size() > 1 && !is_tied(original, 0) ? 1 : 0;
   }
-  return answered;
+  return compared;
 }
 
 TEST(Frames, TurningMapAndPriorTurnsTheAnswers) {
-  EXPECT_GT(check_moved(true, 3000), 40);
+  EXPECT_GT(check_moved(true, 3000), 30);
 }
 
 TEST(Frames, ShiftingMapAndPriorShiftsTheAnswers) {
-  EXPECT_GT(check_moved(false, 3100), 40);
+  EXPECT_GT(check_moved(false, 3100), 30);
 }
 
 }  // namespace
