@@ -89,6 +89,7 @@ Pose2 match(const Scan& scan, std::span<const Scan> placed, const Pose2& T_refer
                     .lattice = lattice,
                     .domain = domain,
                     .options = search_options,
+                    .margin = rival_margin(points.size()),
                     .threads = options.threads,
                     .deadline = {}};
   const Proposal proposal = propose_branch_and_bound(query);

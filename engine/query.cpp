@@ -11,14 +11,19 @@ std::int32_t rival_margin(std::size_t points) {
   return static_cast<std::int32_t>(rival_nats / evidence_nats(points) * 255.0 * static_cast<double>(points));
 }
 
+std::int32_t second_margin(std::size_t points) {
+  constexpr double share = 0.25;
+  return static_cast<std::int32_t>(share * 255.0 * static_cast<double>(points));
+}
+
 std::int32_t lowest_rival(std::int32_t best_score, std::int32_t margin) {
   return std::max(1, best_score - margin);
 }
 
-void keep_rivals(std::vector<Candidate>& candidates, std::size_t points) {
+void keep_rivals(std::vector<Candidate>& candidates, std::int32_t margin) {
   std::int32_t best = 0;
   for (const Candidate& candidate : candidates) best = std::max(best, candidate.score);
-  const std::int32_t lowest = lowest_rival(best, rival_margin(points));
+  const std::int32_t lowest = lowest_rival(best, margin);
   std::erase_if(candidates, [lowest](const Candidate& candidate) { return candidate.score < lowest; });
   if (candidates.size() > max_candidates) {
     std::nth_element(candidates.begin(), candidates.begin() + max_candidates, candidates.end(), better);

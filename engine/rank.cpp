@@ -9,7 +9,6 @@
 namespace landfall::internal {
 namespace {
 
-constexpr double explains = 0.5;
 constexpr double unexplained_nats = 20.0;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
@@ -62,14 +61,15 @@ void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& resu
   double log_total = nothing;
   bool any_explains = false;
   for (const Modes& map : maps)
-    for (const Mode& mode : map.modes) any_explains = any_explains || mode.hypothesis.explained >= explains;
+    for (const Mode& mode : map.modes)
+      any_explains = any_explains || mode.hypothesis.explained >= least_explained;
   for (const Modes& map : maps) {
     log_total = log_add(log_total, map.log_rest);
     for (Mode mode : map.modes) {
       const double lattice_share = share_of(mode.best.score, map.points);
       mode.log_mass += map.nats * (mode.share - lattice_share + share_of_rays(mode.verification));
       // A pose that would be lost by itself is no rival of one that explains the scan.
-      if (any_explains && mode.hypothesis.explained < explains) mode.log_mass -= unexplained_nats;
+      if (any_explains && mode.hypothesis.explained < least_explained) mode.log_mass -= unexplained_nats;
       mode.share = lattice_share;
       log_total = log_add(log_total, mode.log_mass);
       all.push_back(std::move(mode));
@@ -95,7 +95,7 @@ void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& resu
     result.verdict = Verdict::lost;
     result.reason = result.proven ? "no echo falls near a wall from any pose of the prior"
                                   : "the time budget ended before any pose was scored";
-  } else if (result.hypotheses.front().explained < explains) {
+  } else if (result.hypotheses.front().explained < least_explained) {
     result.verdict = Verdict::lost;
     result.reason = "no pose of the prior explains half of the beams";
   } else {

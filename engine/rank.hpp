@@ -8,6 +8,9 @@
 
 namespace landfall::internal {
 
+// A pose that explains less than this is none.
+inline constexpr double least_explained = 0.5;
+
 // A peak of the score. All peaks are taken to be equally wide, so that the likelihood at the top stands for
 // the mass: sums over the lattice favoured blurred matches over sharp ones (intel: five queries of 455).
 struct Mode {

@@ -84,6 +84,28 @@ void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   result.counts.rays_cast += static_cast<std::int64_t>(verified.size()) * result.beams_valid;
 }
 
+Modes examine(const Query& query, const Method& method, SearchResult& result) {
+  const Proposal proposal = propose(query, method, result);
+  Modes modes = [&] {
+    const StageTimer timer(result.times.rank_ms);
+    return find_modes(query, proposal.candidates,
+                      static_cast<std::size_t>(std::max(query.options.max_hypotheses, least_modes)));
+  }();
+  refine_modes(query, modes, result);
+  verify_modes(query, modes, result);
+  return modes;
+}
+
+// The field does not know what stands between: where every pose found sees through walls, one that does
+// not may score less. Looked for where that is cheap: with so wide a margin bounds exclude little.
+bool deserves_second_look(const Query& query, const Modes& modes) {
+  constexpr std::int64_t most_poses = 100'000'000;
+  if (query.domain.poses > most_poses || query.out_of_time()) return false;
+  return !modes.modes.empty() && std::none_of(modes.modes.begin(), modes.modes.end(), [](const Mode& mode) {
+    return mode.hypothesis.explained >= least_explained;
+  });
+}
+
 // Why there is nothing to go by; empty where there is.
 std::string nothing_to_go_by(const SearchResult& result) {
   if (result.beams_valid == 0) return "no valid beam";
@@ -115,19 +137,17 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
                 .lattice = maps[m].lattice,
                 .domain = maps[m].domain(index),
                 .options = options,
+                .margin = rival_margin(points.size()),
                 .threads = threads,
                 .deadline = {}};
     if (options.time_budget_s > 0.0)
       query.deadline = start + std::chrono::duration_cast<Clock::duration>(
                                    std::chrono::duration<double>(options.time_budget_s));
-    const Proposal proposal = propose(query, method, result);
-    Modes modes = [&] {
-      const StageTimer rank_timer(result.times.rank_ms);
-      return find_modes(query, proposal.candidates,
-                        static_cast<std::size_t>(std::max(options.max_hypotheses, least_modes)));
-    }();
-    refine_modes(query, modes, result);
-    verify_modes(query, modes, result);
+    Modes modes = examine(query, method, result);
+    if (deserves_second_look(query, modes)) {
+      query.margin = second_margin(points.size());
+      modes = examine(query, method, result);
+    }
     for (Mode& mode : modes.modes) mode.map_index = static_cast<int>(m);
     found.push_back(std::move(modes));
   }

@@ -21,7 +21,7 @@ class BranchAndBound {
         search_{.query = query,
                 .planes = query.map.window_tables().planes(),
                 .heading_cells = std::vector<HeadingCells>(static_cast<std::size_t>(query.lattice.headings)),
-                .margin = rival_margin(query.points.size())} {}
+                .margin = query.margin} {}
 
   Proposal run() {
     compute_heading_cells();
@@ -124,7 +124,7 @@ class BranchAndBound {
     }
     proposal_.proven = !query_.out_of_time();
     if (!proposal_.proven) add_early_candidates();
-    keep_rivals(proposal_.candidates, query_.points.size());
+    keep_rivals(proposal_.candidates, query_.margin);
   }
 
   void add_early_candidates() {

@@ -71,12 +71,12 @@ Proposal propose_exhaustive(const Query& query) {
       }
       scorer.score_blocks(row, *allowed, found[heading]);
     }
-    keep_rivals(found[heading], query.points.size());
+    keep_rivals(found[heading], query.margin);
     scored += allowed->count();
   });
   for (const auto& some : found)
     proposal.candidates.insert(proposal.candidates.end(), some.begin(), some.end());
-  keep_rivals(proposal.candidates, query.points.size());
+  keep_rivals(proposal.candidates, query.margin);
   proposal.proven = !cut_short;
   proposal.counts.poses_scored = scored;
   return proposal;
