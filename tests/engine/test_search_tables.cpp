@@ -27,7 +27,7 @@ struct Field {
   }
   [[nodiscard]] int at(int col, int row) const {
     if (col < 0 || row < 0 || col >= width || row >= height) return 0;
-    return values[static_cast<std::size_t>(row * width + col)];
+    return values.data()[row * width + col];
   }
 };
 

@@ -11,6 +11,10 @@ namespace landfall::testing {
 // Numbers of points that straddle every vector width and every flush of 16-bit sums.
 inline constexpr int point_counts[] = {0, 1, 7, 8, 9, 31, 32, 33, 47, 48, 49, 255, 256, 257, 258, 1000};
 
+inline std::size_t area(int width, int height) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
 class RandomField {
  public:
   explicit RandomField(std::uint64_t seed) : rng_(seed) {}

@@ -29,7 +29,7 @@ struct Tile {
 
   Tile(testing::RandomField& random, int points, int heaviest, int most_level = kernels::bound_levels)
       : cols(tile_cols + random.between(0, 90)), rows(tile_rows + random.between(0, 30)) {
-    levels = random.bytes(static_cast<std::size_t>(planes_kept * cols * rows), most_level);
+    levels = random.bytes(testing::area(planes_kept * cols, rows), most_level);
     const auto count = static_cast<std::size_t>(points);
     const Integers weights = random.integers(count, 1, heaviest);
     const Integers planes_of = random.integers(count, 0, planes_kept - 1);
@@ -74,7 +74,7 @@ struct Tile {
 // The twin by hand: three points, of weight 1, 2 and 3, over one plane that counts its own bytes.
 TEST(BoundTileByHand, WeighsPointsByTheirLists) {
   constexpr int cols = tile_cols + 2;
-  std::vector<std::uint8_t> levels(static_cast<std::size_t>(cols * (tile_rows + 2)));
+  std::vector<std::uint8_t> levels(testing::area(cols, tile_rows + 2));
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = static_cast<std::uint8_t>(i % 7);
   const Integers plane(4, 0);
   const Integers col{1, 2, 0, 2};  // list of 2: b, c; list of 1: a, c

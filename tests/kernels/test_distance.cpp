@@ -17,9 +17,7 @@ struct Picture {
   int width, height;
   std::vector<std::uint8_t> occupied;
 
-  [[nodiscard]] bool at(int col, int row) const {
-    return occupied[static_cast<std::size_t>(row * width + col)] != 0;
-  }
+  [[nodiscard]] bool at(int col, int row) const { return occupied.data()[row * width + col] != 0; }
   [[nodiscard]] std::int32_t squared_by_brute_force(int col, int row) const {
     std::int32_t least = kernels::far_squared;
     for (int r = 0; r < height; ++r)
@@ -38,7 +36,7 @@ struct Picture {
 
 Picture random_picture(testing::RandomField& random) {
   Picture picture{.width = random.between(1, 40), .height = random.between(1, 40), .occupied = {}};
-  picture.occupied.resize(static_cast<std::size_t>(picture.width * picture.height));
+  picture.occupied.resize(testing::area(picture.width, picture.height));
   const int one_in = random.between(0, 3) == 0 ? 2 : 60;
   for (std::uint8_t& cell : picture.occupied) cell = random.between(1, one_in) == 1 ? 1 : 0;
   if (random.between(0, 9) == 0) std::fill(picture.occupied.begin(), picture.occupied.end(), std::uint8_t{0});

@@ -29,7 +29,7 @@ struct Block {
         height(random.between(1, 60)),
         col(block_cells * random.between(0, (width - 1) / block_cells)),
         row(block_cells * random.between(0, (height - 1) / block_cells)),
-        field(random.bytes(static_cast<std::size_t>(width * height))),
+        field(random.bytes(testing::area(width, height))),
         tables(internal::make_window_tables(field, width, height)),
         point_col(random.integers(static_cast<std::size_t>(points), -width - 20, width + 20)),
         point_row(random.integers(static_cast<std::size_t>(points), -height - 20, height + 20)) {}
@@ -42,7 +42,7 @@ struct Block {
   }
   [[nodiscard]] std::int32_t field_at(int c, int r) const {
     if (c < 0 || c >= width || r < 0 || r >= height) return 0;
-    return field[static_cast<std::size_t>(r * width + c)];
+    return field.data()[r * width + c];
   }
   // Straight from the field.
   [[nodiscard]] Scores scores() const {

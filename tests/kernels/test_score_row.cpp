@@ -29,7 +29,7 @@ TEST(ScoreRow, EqualsItsTwinOnEveryInstructionSet) {
     for (const int points : testing::point_counts) {
       for (const int width : {1, 7, 31, 32, 33, 65, 130}) {
         const int height = random.between(1, 20);
-        const auto field = random.bytes(static_cast<std::size_t>(width * height));
+        const auto field = random.bytes(testing::area(width, height));
         const Scores col = random.integers(static_cast<std::size_t>(points), -width - 2, width + 2);
         const Scores row = random.integers(static_cast<std::size_t>(points), -height - 2, height + 2);
         const int at = random.between(0, height - 1);
