@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/office.hpp"
 #include "engine/to_raycast.hpp"
 #include "landfall/io.hpp"
 #include "tests/data_folder.hpp"
@@ -51,23 +52,6 @@ Place make_place(std::string name, GridMap grid, const std::optional<WallMap>& p
   }
   return {std::move(name),  std::move(grid),  plan.has_value(),
           std::move(walls), std::move(scene), std::move(poses)};
-}
-
-// 30 x 30 m at 5 cm: rooms of 3 m with doors of 1 m.
-GridMap office() {
-  constexpr int side = 601;
-  GridMap map{.width_cells = side,
-              .height_cells = side,
-              .resolution_m = 0.05,
-              .T_map_grid = {},
-              .cells = std::vector<Occupancy>(side * side, Occupancy::free)};
-  for (int row = 0; row < side; ++row)
-    for (int col = 0; col < side; ++col) {
-      const bool outer = row % (side - 1) == 0 || col % (side - 1) == 0;
-      const bool wall = (row % 60 == 0 && col % 60 >= 20) || (col % 60 == 0 && row % 60 >= 20);
-      if (outer || wall) map.cells[map.index({.col = col, .row = row})] = Occupancy::occupied;
-    }
-  return map;
 }
 
 std::vector<raycast::Beam> fan(int count, double step_rad, double half_angle_rad) {
@@ -179,7 +163,7 @@ void register_place(const Place& place) {
 
 std::vector<Place> places() {
   std::vector<Place> all;
-  all.push_back(make_place("office", office(), std::nullopt));
+  all.push_back(make_place("office", bench::office(), std::nullopt));
   if (!testing::has_data()) {
     std::fprintf(stderr, "no real data: set LANDFALL_DATA\n");
     return all;

@@ -1,0 +1,222 @@
+// The kernels with inputs as the search gives them.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/office.hpp"
+#include "engine/end_points.hpp"
+#include "engine/search_tables.hpp"
+#include "kernels/bound_tile.hpp"
+#include "kernels/end_points.hpp"
+#include "kernels/score_block.hpp"
+#include "kernels/score_row.hpp"
+#include "landfall/prepared_map.hpp"
+#include "landfall/simulate.hpp"
+#include "tests/kernels/random_field.hpp"
+
+namespace landfall::bench {
+
+using Integers = std::vector<std::int32_t>;
+
+// What a kernel answered, all calls of a run one after the other.
+struct Answers {
+  std::vector<std::uint16_t> sums;
+  Integers numbers;
+  friend bool operator==(const Answers&, const Answers&) = default;
+};
+
+// The same calls each run; by the plain twin where `twin`.
+struct Work {
+  std::string name;
+  std::string unit;  // a rate, such as "poses/s"
+  double units_per_run = 0.0;
+  std::function<void(bool twin, Answers& answers)> run;
+  std::span<const std::uint8_t> table{};  // whose loads limit the kernel; empty: something else does
+};
+
+// Planes of window maxima, and points of a heading group on them; some weigh more than 1.
+struct Planes {
+  static constexpr int heavy_points = 30;
+  static constexpr int all_points = 60;
+
+  kernels::BoundPlanes planes;
+  std::vector<std::uint8_t> levels;
+  Integers plane, col, row, list_end, tile_col, tile_row;
+
+  Planes(int count, int cols, int rows, int tiles)
+      : planes{.data = nullptr,
+               .stride = cols,
+               .last_col = cols - kernels::tile_cols,
+               .last_row = rows - kernels::tile_rows} {
+    testing::RandomField random(1);
+    const int whole_vectors = (count * cols * rows + 511) / 512 * 512;  // as sum_bytes wants it
+    levels = random.bytes(static_cast<std::size_t>(whole_vectors), kernels::bound_levels);
+    planes.data = levels.data();
+    for (const int points : {heavy_points, all_points}) {
+      for (int i = 0; i < points; ++i) {
+        plane.push_back(random.between(0, count - 1) * cols * rows);
+        col.push_back(random.between(0, planes.last_col));
+        row.push_back(random.between(0, planes.last_row));
+      }
+      list_end.push_back(static_cast<std::int32_t>(plane.size()));
+    }
+    tile_col = random.integers(static_cast<std::size_t>(tiles), -cols / 2, cols / 2);
+    tile_row = random.integers(static_cast<std::size_t>(tiles), -rows / 2, rows / 2);
+  }
+  [[nodiscard]] kernels::BoundPoints points() const {
+    return {.plane = plane.data(),
+            .col = col.data(),
+            .row = row.data(),
+            .list_end = list_end.data(),
+            .lists = static_cast<std::int32_t>(list_end.size())};
+  }
+};
+
+inline Work bound_tile_work(const std::string& cache, int count, int cols, int rows) {
+  constexpr int tiles = 64;
+  const auto data = std::make_shared<const Planes>(count, cols, rows, tiles);
+  return {.name = "bound_tile/" + cache,
+          .unit = "bytes/s",
+          .units_per_run = 1.0 * tiles * static_cast<double>(data->plane.size()) * kernels::tile_blocks,
+          .run =
+              [data, scratch = Integers(data->plane.size())](bool twin, Answers& answers) mutable {
+                answers.sums.resize(tiles * kernels::tile_blocks);
+                const auto bound = twin ? kernels::scalar::bound_tile : kernels::bound_tile;
+                for (std::size_t t = 0; t < tiles; ++t)
+                  bound(data->planes, data->points(), data->tile_col[t], data->tile_row[t], 0, scratch.data(),
+                        answers.sums.data() + t * kernels::tile_blocks);
+              },
+          .table = data->levels};
+}
+
+// A scan of 180 beams over half a turn, on the lattice of the office, seen at headings all around.
+struct OfficeScan {
+  static constexpr int views = 64;
+
+  PreparedMap map{office()};
+  internal::Lattice lattice = internal::make_lattice(map.grid(), 0.0, std::numbers::pi / 360.0);
+  internal::EndPoints points;
+  internal::WindowTables tables =
+      internal::make_window_tables(map.field(), lattice.width_cells, lattice.height_cells);
+  std::vector<internal::HeadingCells> cells;  // [view]
+  Integers block_col, block_row;              // [view]
+  std::vector<Integers> index;                // [view]: of window_indices
+
+  OfficeScan() {
+    const auto sensor = std::make_shared<const Sensor>(
+        make_fan({.beams = 180, .first_rad = -std::numbers::pi / 2.0, .step_rad = std::numbers::pi / 180.0}));
+    const std::vector<Pose2> T_map_robot{{.x_m = 14.2, .y_m = 14.2, .theta_rad = 0.3}};
+    points = internal::make_end_points(simulate(map, sensor, T_map_robot).front(), lattice.resolution_m);
+    testing::RandomField random(3);
+    for (int view = 0; view < views; ++view) {
+      cells.emplace_back();
+      internal::cells_at_heading(points, lattice, view * lattice.headings / views, cells.back());
+      block_col.push_back(8 * random.between(0, lattice.width_cells / 8 - 1));
+      block_row.push_back(8 * random.between(0, lattice.height_cells / 8 - 1));
+      index.emplace_back(points.size());
+      kernels::scalar::window_indices(tables.planes(), block_col.back(), block_row.back(),
+                                      cells.back().col.data(), cells.back().row.data(), points.size(),
+                                      index.back().data());
+    }
+  }
+};
+using SharedScan = std::shared_ptr<const OfficeScan>;
+
+inline Work window_indices_work(const SharedScan& scan) {
+  const std::size_t points = scan->points.size();
+  return {.name = "window_indices",
+          .unit = "points/s",
+          .units_per_run = static_cast<double>(OfficeScan::views * points),
+          .run = [scan, points](bool twin, Answers& answers) {
+            answers.numbers.resize(OfficeScan::views * points);
+            const auto indices = twin ? kernels::scalar::window_indices : kernels::window_indices;
+            for (std::size_t v = 0; v < OfficeScan::views; ++v)
+              indices(scan->tables.planes(), scan->block_col[v], scan->block_row[v],
+                      scan->cells[v].col.data(), scan->cells[v].row.data(), points,
+                      answers.numbers.data() + v * points);
+          }};
+}
+
+// No threshold: every point is looked at.
+inline Work bound_block_work(const SharedScan& scan) {
+  return {.name = "bound_block",
+          .unit = "blocks/s",
+          .units_per_run = OfficeScan::views,
+          .run = [scan](bool twin, Answers& answers) {
+            answers.numbers.resize(OfficeScan::views);
+            const auto bound = twin ? kernels::scalar::bound_block : kernels::bound_block;
+            for (std::size_t v = 0; v < OfficeScan::views; ++v)
+              answers.numbers[v] =
+                  bound(scan->tables.planes(), scan->index[v].data(), scan->index[v].size(), 0);
+          }};
+}
+
+inline Work score_block_work(const SharedScan& scan) {
+  return {.name = "score_block",
+          .unit = "poses/s",
+          .units_per_run = 1.0 * OfficeScan::views * kernels::block_poses,
+          .run = [scan](bool twin, Answers& answers) {
+            answers.numbers.resize(OfficeScan::views * kernels::block_poses);
+            const auto score = twin ? kernels::scalar::score_block : kernels::score_block;
+            for (std::size_t v = 0; v < OfficeScan::views; ++v)
+              score(scan->tables.planes(), scan->index[v].data(), scan->index[v].size(), 0,
+                    answers.numbers.data() + v * kernels::block_poses);
+          }};
+}
+
+inline Work score_row_work(const SharedScan& scan) {
+  const auto width = static_cast<std::size_t>(scan->lattice.width_cells);
+  return {
+      .name = "score_row",
+      .unit = "poses/s",
+      .units_per_run = 1.0 * OfficeScan::views * static_cast<double>(width),
+      .run = [scan, width, partial = std::vector<std::uint16_t>(width)](bool twin, Answers& answers) mutable {
+        answers.numbers.assign(OfficeScan::views * width, 0);
+        const auto score = twin ? kernels::scalar::score_row : kernels::score_row;
+        for (std::size_t v = 0; v < OfficeScan::views; ++v)
+          score(scan->map.field().data(), scan->lattice.width_cells, scan->lattice.height_cells,
+                scan->block_row[v], scan->cells[v].col.data(), scan->cells[v].row.data(), scan->points.size(),
+                partial.data(), answers.numbers.data() + v * width);
+      }};
+}
+
+inline Work end_point_cells_work(const SharedScan& scan) {
+  const std::size_t points = scan->points.size();
+  return {.name = "end_point_cells",
+          .unit = "points/s",
+          .units_per_run = static_cast<double>(OfficeScan::views * points),
+          .run = [scan, points](bool twin, Answers& answers) {
+            answers.numbers.resize(2 * OfficeScan::views * points);
+            const auto rotate = twin ? kernels::scalar::end_point_cells : kernels::end_point_cells;
+            for (std::size_t v = 0; v < OfficeScan::views; ++v) {
+              const double heading_rad = 0.1 * static_cast<double>(v);
+              std::int32_t* col = answers.numbers.data() + 2 * v * points;
+              rotate(scan->points.x_cells.data(), scan->points.y_cells.data(), points, std::cos(heading_rad),
+                     std::sin(heading_rad), col, col + points);
+            }
+          }};
+}
+
+// The bound tables of a small room, of 640 x 640 cells, and of 4800 x 4120 cells.
+inline std::vector<Work> all_work() {
+  const auto scan = std::make_shared<const OfficeScan>();
+  std::vector<Work> all;
+  all.push_back(bound_tile_work("16KB", 3, 100, 50));
+  all.push_back(bound_tile_work("400KB", 20, 168, 124));
+  all.push_back(bound_tile_work("8MB", 20, 688, 572));
+  all.push_back(window_indices_work(scan));
+  all.push_back(bound_block_work(scan));
+  all.push_back(score_block_work(scan));
+  all.push_back(score_row_work(scan));
+  all.push_back(end_point_cells_work(scan));
+  return all;
+}
+
+}  // namespace landfall::bench

@@ -1,0 +1,138 @@
+"""Measures landfall on the real maps and logs and writes bench/RESULTS.md beside the Google Benchmark suites.
+
+    .venv/bin/python bench/report.py [--quick] [--buildings intel,csail] [--json numbers.json]
+
+Everything is asked without prior. Real data are looked for in LANDFALL_DATA (default: ../shared/data beside
+the checkout); without them only the suites' tables are rewritten.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import landfall
+from buildings import NAMES, Building, measure
+from drives import trace1, wean_hall
+from landfall.commands.tables import print_table
+from results_page import rewrite_measured, table
+from suite_tables import suite_sections
+from targets import BUILDINGS, TRACE1, WEAN_HALL, probability_table, target_table, verdict_table
+
+ROOT = Path(__file__).resolve().parent.parent
+SUITES = ROOT / "build" / "bench" / "results"
+QUICK_EVERY = 10
+
+
+def parse(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--buildings", default=",".join(NAMES), help="some of: " + ", ".join(NAMES))
+    parser.add_argument("--quick", action="store_true", help=f"every {QUICK_EVERY}th query")
+    parser.add_argument("--no-drives", action="store_true", help="leave out Wean Hall and the bag")
+    parser.add_argument("--json", type=Path, help="all numbers, for machines")
+    parser.add_argument("--results", type=Path, default=ROOT / "bench" / "RESULTS.md", help="what to rewrite")
+    options = parser.parse_args(arguments)
+    options.buildings = options.buildings.split(",")
+    unknown = sorted(set(options.buildings) - set(NAMES))
+    if unknown:
+        parser.error(f"--buildings: unknown: {', '.join(unknown)}; known: {', '.join(NAMES)}")
+    return options
+
+
+def data_folder() -> Path:
+    return Path(os.environ.get("LANDFALL_DATA") or ROOT.parent / "shared" / "data")
+
+
+def measure_all(data: Path, options: argparse.Namespace) -> dict:
+    every = QUICK_EVERY if options.quick else 1
+    all_buildings = {name: Building(name, data / name) for name in NAMES}
+    measured: dict = {"buildings": {}, "wean_hall": {}, "trace1": {}}
+    for name in options.buildings:
+        others = [building for building in all_buildings.values() if building.name != name]
+        measured["buildings"][name] = measure(
+            all_buildings[name], others, every, lambda what, name=name: say(f"{name}: {what}")
+        )
+    if not options.no_drives:
+        SUITES.mkdir(parents=True, exist_ok=True)
+        for drive in ("robotdata1", "robotdata5"):
+            say(f"Wean Hall: {drive}")
+            picture = SUITES / f"wean_hall_{drive}.png"
+            measured["wean_hall"][drive] = wean_hall(data / "wean_hall", drive, picture)
+        say("bag: trace1")
+        measured["trace1"]["trace1"] = trace1(data / "rosbag" / "trace1.bag", every)
+    return measured
+
+
+def say(what: str) -> None:
+    print(f"report: {what}", file=sys.stderr, flush=True)
+
+
+def circumstances(arguments: list[str]) -> dict[str, str]:
+    cpuinfo = Path("/proc/cpuinfo")
+    names = re.findall(r"model name\s*:\s*(.+)", cpuinfo.read_text()) if cpuinfo.exists() else []
+    commit = subprocess.run(
+        ["git", "-C", ROOT, "describe", "--always", "--dirty"], capture_output=True, text=True
+    ).stdout.strip()
+    return {
+        "machine": f"{names[0] if names else 'unknown'}, {os.cpu_count()} cores, {landfall.active_isa()}",
+        "date": datetime.date.today().isoformat(),
+        "commit": commit or "unknown",
+        "command": " ".join(["bench/report.py", *arguments]),
+    }
+
+
+def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
+    """Name of a measured part of RESULTS.md -> its text."""
+    parts = {}
+    if measured.get("buildings"):
+        parts["run"] = "\n".join(f"- {key}: {value}" for key, value in run.items())
+        parts["buildings"] = table(target_table(BUILDINGS, measured["buildings"]))
+        parts["verdicts"] = "\n\n".join(
+            table(rows)
+            for rows in (verdict_table(measured["buildings"]), probability_table(measured["buildings"]))
+        )
+    for name, targets in (("wean_hall", WEAN_HALL), ("trace1", TRACE1)):
+        if measured.get(name):
+            parts[name] = table(target_table(targets, measured[name]))
+    for name, (date, rows) in suite_sections(SUITES).items():
+        parts[name] = f"{date[:10]}\n\n{table(rows)}"
+    return parts
+
+
+def print_tables(measured: dict) -> None:
+    for title, targets in (("buildings", BUILDINGS), ("wean_hall", WEAN_HALL), ("trace1", TRACE1)):
+        if measured.get(title):
+            header, *rows = target_table(targets, measured[title])
+            print_table(([cell.replace("**", "") for cell in row] for row in rows), header)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = parse(arguments)
+    run = circumstances(sys.argv[1:] if arguments is None else arguments)
+    data = data_folder()
+    if data.is_dir():
+        measured = measure_all(data, options)
+    else:
+        say(f"{data}: no real data: set LANDFALL_DATA")
+        measured = {}
+    if options.json is not None:
+        options.json.write_text(json.dumps({"run": run, **measured}) + "\n", encoding="utf-8")
+    print_tables(measured)
+    try:
+        rewrite_measured(options.results, measured_parts(measured, run))
+    except (OSError, ValueError) as cause:
+        say(str(cause))
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

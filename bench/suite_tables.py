@@ -1,0 +1,91 @@
+"""The Google Benchmark suites as tables: kernels by instruction set, rays and searches by place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from google_benchmark import Median, Suite, load_suite
+
+RATES = ("bytes/s", "points/s", "blocks/s", "poses/s")
+Table = list[list[str]]
+
+
+def suite_sections(folder: Path) -> dict[str, tuple[str, Table]]:
+    """Section name -> date and table, of the suites that were run."""
+    tables: dict[str, Callable[[Mapping[str, Median]], Table]] = {
+        "kernels": kernel_table,
+        "raycast": ray_table,
+        "search": search_table,
+    }
+    sections = {}
+    for name, table in tables.items():
+        path = folder / f"bench_{name}.json"
+        if path.is_file():
+            suite: Suite = load_suite(path)
+            sections[name] = (suite.date, table(suite.medians))
+    return sections
+
+
+def kernel_table(medians: Mapping[str, Median]) -> Table:
+    """A row per kernel, a column per instruction set; the bound kernel with its share of the load rate."""
+    kernels: dict[str, dict[str, Median]] = {}
+    for name, median in medians.items():
+        kernel, isa = name.rsplit("/", 1)
+        kernels.setdefault(kernel, {})[isa] = median
+    sets = list(dict.fromkeys(isa for of_kernel in kernels.values() for isa in of_kernel))
+    rows = [["kernel", "unit", *sets]]
+    for kernel, of_kernel in kernels.items():
+        unit = next(unit for unit in RATES if unit in next(iter(of_kernel.values())).counters)
+        rows.append([kernel, f"M {unit}", *(_rate(of_kernel.get(isa), unit) for isa in sets)])
+    return rows
+
+
+def _rate(median: Median | None, unit: str) -> str:
+    if median is None:
+        return "-"
+    rate, limit = median.counters[unit], median.counters.get("load_bytes/s")
+    return _millions(rate) + (f" ({100.0 * rate / limit:.0f} %)" if limit else "")
+
+
+def ray_table(medians: Mapping[str, Median]) -> Table:
+    """M rays/s: a row per kind of ray, a column per place."""
+    by_place: dict[str, dict[str, Median]] = {}
+    for name, median in medians.items():
+        place, kind = name.split("/", 1)
+        by_place.setdefault(place, {})[kind] = median
+    kinds = list(dict.fromkeys(kind for of_place in by_place.values() for kind in of_place))
+    rows = [["M rays/s", *by_place]]
+    for kind in kinds:
+        cells = [
+            _millions(place[kind].counters["rays/s"]) if kind in place else "-" for place in by_place.values()
+        ]
+        rows.append([kind, *cells])
+    return rows
+
+
+def search_table(medians: Mapping[str, Median]) -> Table:
+    """A row per place."""
+    columns: tuple[tuple[str, str, str, float], ...] = (
+        ("1 thread: median ms", "branch_and_bound/threads:1", "median_ms", 1.0),
+        ("2 threads: median ms", "branch_and_bound/threads:2", "median_ms", 1.0),
+        ("p95 ms", "branch_and_bound/threads:2", "p95_ms", 1.0),
+        ("batch, 1 thread: scans/s", "batch/threads:1", "scans/s", 1.0),
+        ("2 threads: scans/s", "batch/threads:2", "scans/s", 1.0),
+        ("exhaustive: M free poses/s", "exhaustive/threads:2", "poses/s", 1e-6),
+        ("prepare: M cells/s", "prepare", "cells/s", 1e-6),
+        ("bytes a cell", "prepare", "bytes/cell", 1.0),
+    )
+    places = list(dict.fromkeys(name.split("/", 1)[0] for name in medians))
+    rows = [["place", *(title for title, *_ in columns)]]
+    for place in places:
+        cells = []
+        for _, benchmark, counter, scale in columns:
+            median = medians.get(f"{place}/{benchmark}/real_time")
+            cells.append(f"{scale * median.counters[counter]:.1f}" if median else "-")
+        rows.append([place, *cells])
+    return rows
+
+
+def _millions(rate: float) -> str:
+    return f"{rate * 1e-6:.0f}" if rate >= 100e6 else f"{rate * 1e-6:.1f}"

@@ -1,0 +1,89 @@
+"""The benchmark report's tables on numbers small enough to check by hand."""
+
+from __future__ import annotations
+
+import importlib
+import json
+from pathlib import Path
+
+import pytest
+
+BENCH = Path(__file__).resolve().parents[2] / "bench"
+
+
+@pytest.fixture
+def module(monkeypatch):
+    """A module of bench/ by name."""
+    monkeypatch.syspath_prepend(BENCH)
+    return importlib.import_module
+
+
+def test_only_measured_parts_are_rewritten(module, tmp_path):
+    page = tmp_path / "RESULTS.md"
+    page.write_text("by hand\n<!-- measured: a -->\nold\n<!-- end of a -->\nkept\n")
+    module("results_page").rewrite_measured(page, {"a": "new"})
+    assert page.read_text() == "by hand\n<!-- measured: a -->\nnew\n<!-- end of a -->\nkept\n"
+    assert list(tmp_path.iterdir()) == [page]
+
+
+def test_a_part_without_place_is_an_error(module, tmp_path):
+    page = tmp_path / "RESULTS.md"
+    page.write_text("<!-- measured: a -->\n")
+    with pytest.raises(ValueError, match=r"RESULTS\.md: no part .* a "):
+        module("results_page").rewrite_measured(page, {"a": "new"})
+
+
+def test_the_page_has_a_place_for_every_part(module):
+    parts = ("run", "buildings", "verdicts", "wean_hall", "trace1", "kernels", "raycast", "search")
+    module("results_page").replace_measured((BENCH / "RESULTS.md").read_text(), dict.fromkeys(parts, ""))
+
+
+def test_misses_are_marked_with_what_was_asked_for(module):
+    targets = module("targets")
+    rate = targets.Target("right", "%", ("one", "rate"), at_least={"a": 99.0, "b": 94.0})
+    time = targets.Target("time", "ms", ("ms",), 1, at_most=10.0)
+    measured = {
+        "a": {"one": {"rate": 0.9899}, "ms": 10.0},
+        "b": {"one": {"rate": 0.94}, "ms": 10.1},
+        "c": {"one": {"rate": None}, "ms": 1.0},
+    }
+    assert targets.target_table((rate, time), measured) == [
+        ["", "unit", "target", "a", "b", "c"],
+        ["right", "%", ">= 99 / 94 / -", "**98.99** (missed 99)", "94.00", "-"],
+        ["time", "ms", "<= 10", "10.0", "**10.1** (missed 10)", "1.0"],
+    ]
+
+
+def test_precision_by_probability_sums_over_buildings(module):
+    def building(right, asked):
+        empty = {"from": 0.0, "to": 0.5, "queries": 0, "right": 0}
+        return {
+            "single": {"probability": [empty, {"from": 0.5, "to": 1.0, "queries": asked, "right": right}]}
+        }
+
+    rows = module("targets").probability_table({"a": building(3, 4), "b": building(5, 6)})
+    assert rows == [["probability", "a", "b", "all"], ["0.5 to 1", "3 / 4", "5 / 6", "8 / 10 = 80.0 %"]]
+
+
+def test_kernels_in_the_order_of_their_registration(module, tmp_path):
+    def median(name, family, rate, limit=None):
+        entry = {
+            "name": name,
+            "run_name": name,
+            "aggregate_name": "median",
+            "cpu_time": 1.0,
+            "time_unit": "us",
+        }
+        counters = {"bytes/s": rate} if limit is None else {"bytes/s": rate, "load_bytes/s": limit}
+        return {**entry, "family_index": family, **counters}
+
+    entries = [median("tile/SCALAR", 1, 2e6), median("tile/AVX2", 0, 300e6, 400e6)]
+    file = tmp_path / "bench_kernels.json"
+    file.write_text(json.dumps({"context": {"date": "2026-11-22T10:00"}, "benchmarks": entries}))
+    sections = module("suite_tables").suite_sections(tmp_path)
+    assert sections == {
+        "kernels": (
+            "2026-11-22T10:00",
+            [["kernel", "unit", "AVX2", "SCALAR"], ["tile", "M bytes/s", "300 (75 %)", "2.0"]],
+        )
+    }
