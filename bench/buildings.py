@@ -168,7 +168,7 @@ def foreign(building: Building, others: Sequence[Building], count: int) -> dict:
         for other in others
     }
     asked = len(scans) * len(others)
-    return {"asked": asked, "found": found, "share": sum(found.values()) / asked}
+    return {"asked": asked, "found": found, "share": sum(found.values()) / asked if asked else None}
 
 
 def windows(building: Building, every: int) -> dict:

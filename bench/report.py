@@ -15,6 +15,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import landfall
@@ -26,7 +27,7 @@ from suite_tables import suite_sections
 from targets import BUILDINGS, TRACE1, WEAN_HALL, probability_table, target_table, verdict_table
 
 ROOT = Path(__file__).resolve().parent.parent
-SUITES = ROOT / "build" / "bench" / "results"
+OUT = ROOT / "build" / "bench" / "results"
 QUICK_EVERY = 10
 
 
@@ -37,7 +38,7 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--buildings", default=",".join(NAMES), help="some of: " + ", ".join(NAMES))
     parser.add_argument("--quick", action="store_true", help=f"every {QUICK_EVERY}th query")
     parser.add_argument("--no-drives", action="store_true", help="leave out Wean Hall and the bag")
-    parser.add_argument("--json", type=Path, help="all numbers, for machines")
+    parser.add_argument("--json", type=Path, default=OUT / "report.json", help="all numbers, as they come")
     parser.add_argument("--results", type=Path, default=ROOT / "bench" / "RESULTS.md", help="what to rewrite")
     options = parser.parse_args(arguments)
     options.buildings = options.buildings.split(",")
@@ -51,24 +52,28 @@ def data_folder() -> Path:
     return Path(os.environ.get("LANDFALL_DATA") or ROOT.parent / "shared" / "data")
 
 
-def measure_all(data: Path, options: argparse.Namespace) -> dict:
+def measure_all(data: Path, options: argparse.Namespace, measured: dict) -> Iterator[None]:
+    """Fills `measured`; yields after each building and drive. What the data folder lacks is left out."""
     every = QUICK_EVERY if options.quick else 1
-    all_buildings = {name: Building(name, data / name) for name in NAMES}
-    measured: dict = {"buildings": {}, "wean_hall": {}, "trace1": {}}
+    present = {name: Building(name, data / name) for name in NAMES if (data / name).is_dir()}
     for name in options.buildings:
-        others = [building for building in all_buildings.values() if building.name != name]
+        if name not in present:
+            say(f"{data / name}: no such data")
+            continue
+        others = [building for building in present.values() if building.name != name]
         measured["buildings"][name] = measure(
-            all_buildings[name], others, every, lambda what, name=name: say(f"{name}: {what}")
+            present[name], others, every, lambda what, name=name: say(f"{name}: {what}")
         )
-    if not options.no_drives:
-        SUITES.mkdir(parents=True, exist_ok=True)
-        for drive in ("robotdata1", "robotdata5"):
-            say(f"Wean Hall: {drive}")
-            picture = SUITES / f"wean_hall_{drive}.png"
-            measured["wean_hall"][drive] = wean_hall(data / "wean_hall", drive, picture)
+        yield
+    wean, bag = data / "wean_hall", data / "rosbag" / "trace1.bag"
+    for drive in ("robotdata1", "robotdata5") if wean.is_dir() and not options.no_drives else ():
+        say(f"Wean Hall: {drive}")
+        measured["wean_hall"][drive] = wean_hall(wean, drive, OUT / f"wean_hall_{drive}.png")
+        yield
+    if bag.is_file() and not options.no_drives:
         say("bag: trace1")
-        measured["trace1"]["trace1"] = trace1(data / "rosbag" / "trace1.bag", every)
-    return measured
+        measured["trace1"]["trace1"] = trace1(bag, every)
+        yield
 
 
 def say(what: str) -> None:
@@ -92,7 +97,7 @@ def circumstances(arguments: list[str]) -> dict[str, str]:
 def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
     """Name of a measured part of RESULTS.md -> its text."""
     parts = {}
-    if measured.get("buildings"):
+    if measured["buildings"]:
         parts["run"] = "\n".join(f"- {key}: {value}" for key, value in run.items())
         parts["buildings"] = table(target_table(BUILDINGS, measured["buildings"]))
         parts["verdicts"] = "\n\n".join(
@@ -100,16 +105,16 @@ def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
             for rows in (verdict_table(measured["buildings"]), probability_table(measured["buildings"]))
         )
     for name, targets in (("wean_hall", WEAN_HALL), ("trace1", TRACE1)):
-        if measured.get(name):
+        if measured[name]:
             parts[name] = table(target_table(targets, measured[name]))
-    for name, (date, rows) in suite_sections(SUITES).items():
+    for name, (date, rows) in suite_sections(OUT).items():
         parts[name] = f"{date[:10]}\n\n{table(rows)}"
     return parts
 
 
 def print_tables(measured: dict) -> None:
     for title, targets in (("buildings", BUILDINGS), ("wean_hall", WEAN_HALL), ("trace1", TRACE1)):
-        if measured.get(title):
+        if measured[title]:
             header, *rows = target_table(targets, measured[title])
             print_table(([cell.replace("**", "") for cell in row] for row in rows), header)
 
@@ -118,12 +123,11 @@ def main(arguments: list[str] | None = None) -> int:
     options = parse(arguments)
     run = circumstances(sys.argv[1:] if arguments is None else arguments)
     data = data_folder()
-    if data.is_dir():
-        measured = measure_all(data, options)
-    else:
+    if not data.is_dir():
         say(f"{data}: no real data: set LANDFALL_DATA")
-        measured = {}
-    if options.json is not None:
+    OUT.mkdir(parents=True, exist_ok=True)
+    measured: dict = {"buildings": {}, "wean_hall": {}, "trace1": {}}
+    for _ in measure_all(data, options, measured):
         options.json.write_text(json.dumps({"run": run, **measured}) + "\n", encoding="utf-8")
     print_tables(measured)
     try:
