@@ -110,13 +110,12 @@ kernels::WindowPlanes WindowTables::planes() const {
 }
 
 WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells) {
-  constexpr std::size_t gather_slack = 4;  // bytes that a four-byte load may read past the last one
   WindowTables tables{
       .width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_4 = {}};
   const auto width = static_cast<std::size_t>(width_cells);
   const std::size_t stride = width + 2 * block_cells;
   const std::size_t rows = static_cast<std::size_t>(height_cells) + 2 * block_cells;
-  tables.window_max.resize(stride * rows + gather_slack);
+  tables.window_max.resize(stride * rows);
   tables.column_of_4.resize(stride * rows);
   const std::vector<std::uint8_t> nothing(width);
   const auto field_row = [&](std::size_t padded_row) {

@@ -37,6 +37,7 @@ class BlockScorer {
 
  private:
   void visit(int heading, std::uint64_t allowed, int block_row, int block_col);
+  std::int32_t bound(const HeadingCells& cells, int block_row, int block_col, std::int32_t lowest);
 
   SharedSearch& search_;
   std::vector<std::int32_t> index_;
