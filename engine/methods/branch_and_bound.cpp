@@ -83,7 +83,7 @@ class BranchAndBound {
       const std::vector<Node> survivors = bounds.survivors(search_.lowest());
       nodes_.insert(nodes_.end(), survivors.begin(), survivors.end());
     }
-    std::sort(nodes_.begin(), nodes_.end(), promises_more);
+    std::sort(nodes_.begin(), nodes_.end(), PromisesMore());
   }
 
   // These nodes survive and are visited again; what they gave counts where time runs out before that.
