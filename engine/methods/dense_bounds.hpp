@@ -18,9 +18,9 @@ struct Node {
   std::uint16_t row = 0;  // block
   std::uint16_t col = 0;
 };
-inline bool promises_more(const Node& a, const Node& b) {
-  return a.bound > b.bound;
-}
+struct PromisesMore {
+  bool operator()(const Node& a, const Node& b) const { return a.bound > b.bound; }
+};
 // The bound of a node that nobody computed.
 inline constexpr std::uint16_t no_bound = 65535;
 
