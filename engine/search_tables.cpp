@@ -87,8 +87,8 @@ BoundTable::BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, i
         const int col_half = p - margin;
         const int phase_col = col_half & 1;
         const int col = (col_half - phase_col) / phases + pad_cols;
-        data_[static_cast<std::size_t>(plane(index, phase_row, phase_col) + row * cols_ + col)] =
-            to_level(tallest[static_cast<std::size_t>(p)]);
+        const std::int64_t at = plane(index, phase_row, phase_col) + std::int64_t{row} * cols_ + col;
+        data_[static_cast<std::size_t>(at)] = to_level(tallest[static_cast<std::size_t>(p)]);
       }
     });
   }

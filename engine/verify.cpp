@@ -86,8 +86,10 @@ std::vector<Verification> verify(const PreparedState& map, const Scan& scan,
   if (valid.empty() || T_map_robot.empty()) return answers;
   const std::vector<raycast::Beam> all = to_raycast(*scan.sensor);
   std::vector<raycast::Beam> beams;
+  beams.reserve(valid.size());
   for (const ValidBeam& beam : valid) beams.push_back(all[beam.beam]);
   std::vector<raycast::Pose> poses;
+  poses.reserve(T_map_robot.size());
   for (const Pose2& pose : T_map_robot) poses.push_back(to_raycast(pose));
   std::vector<float> simulated_m(poses.size() * beams.size());
   map.scene().cast_fans(poses, beams, simulated_m);

@@ -10,7 +10,9 @@ inline std::filesystem::path data_folder() {
   const char* from_environment = std::getenv("LANDFALL_DATA");
   return from_environment != nullptr ? from_environment : LANDFALL_DEFAULT_DATA;
 }
-inline bool has_data() { return std::filesystem::is_directory(data_folder()); }
+inline bool has_data() {
+  return std::filesystem::is_directory(data_folder());
+}
 
 }  // namespace landfall::testing
 

@@ -12,10 +12,10 @@ struct MappingOptions {
   double resolution_m = 0.05;
   double log_odds_hit = 0.85;
   double log_odds_miss = -0.4;
-  double occupied_log_odds = 0.4;   // at or above: occupied
-  double free_log_odds = -0.2;      // at or below: free; between: unknown
+  double occupied_log_odds = 0.4;  // at or above: occupied
+  double free_log_odds = -0.2;     // at or below: free; between: unknown
   double max_log_odds = 3.5;
-  double range_max_m = 0.0;         // longer echoes free their first range_max_m only; 0: no limit
+  double range_max_m = 0.0;  // longer echoes free their first range_max_m only; 0: no limit
   double margin_m = 1.0;
 };
 

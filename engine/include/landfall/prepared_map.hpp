@@ -14,10 +14,10 @@
 namespace landfall {
 
 struct PrepareOptions {
-  double field_sigma_m = 0.1;  // likelihood field: 255 exp(-d^2 / (2 sigma^2)), d to the nearest
-                               // occupied cell's centre
+  double field_sigma_m = 0.1;      // likelihood field: 255 exp(-d^2 / (2 sigma^2)), d to the nearest
+                                   // occupied cell's centre
   std::uint8_t unknown_value = 0;  // the least field value of unknown cells (0: unknown explains nothing)
-  std::string name;            // shown in reports where several maps are searched
+  std::string name;                // shown in reports where several maps are searched
 };
 
 namespace internal {

@@ -17,16 +17,16 @@
 namespace landfall {
 
 struct SearchOptions {
-  std::string method = "auto";                                 // a name of methods()
-  double translation_step_m = 0.0;                             // 0: the map's resolution; else a multiple of it
-  double rotation_step_rad = std::numbers::pi / 360.0;         // 0.5 degrees
-  int max_hypotheses = 5;                                      // 1 to 1000
-  double time_budget_s = 0.0;                                  // 0: none; else per scan: the best so far, proven = false
-  int threads = 0;                                             // 0: all
-  std::uint64_t seed = 0;                                      // of methods that draw random numbers
-  double robot_radius_m = 0.0;                                 // a pose is possible where this disc is free
-  double distinct_translation_m = 0.5;                         // hypotheses nearer than both are one
-  double distinct_rotation_rad = std::numbers::pi / 18.0;      // 10 degrees
+  std::string method = "auto";                          // a name of methods()
+  double translation_step_m = 0.0;                      // 0: the map's resolution; else a multiple of it
+  double rotation_step_rad = std::numbers::pi / 360.0;  // 0.5 degrees
+  int max_hypotheses = 5;                               // 1 to 1000
+  double time_budget_s = 0.0;           // 0: none; else per scan: the best so far, proven = false
+  int threads = 0;                      // 0: all
+  std::uint64_t seed = 0;               // of methods that draw random numbers
+  double robot_radius_m = 0.0;          // a pose is possible where this disc is free
+  double distinct_translation_m = 0.5;  // hypotheses nearer than both are one
+  double distinct_rotation_rad = std::numbers::pi / 18.0;  // 10 degrees
 };
 
 struct Hypothesis {
@@ -36,7 +36,7 @@ struct Hypothesis {
   double explained = 0.0;       // share of valid beams that the map explains from T_map_robot
   double probability = 0.0;     // the mode's posterior mass over the prior's domain (all maps)
   std::array<double, 9> covariance{};  // of (x_m, y_m, theta_rad) in the map frame, row by row
-  int map_index = 0;            // which of the maps given
+  int map_index = 0;                   // which of the maps given
 };
 
 enum class Verdict { found, ambiguous, lost };
@@ -62,9 +62,9 @@ struct SearchCounts {
 struct SearchResult {
   std::vector<Hypothesis> hypotheses;  // ranked, distinct; empty where there is nothing to go by
   Verdict verdict = Verdict::lost;
-  std::string reason;    // why lost (no valid beam, prior without free cell, ...); empty otherwise
-  bool proven = false;   // no lattice pose of the prior scores higher than the best one found
-  std::string method;    // the method that answered ("auto" resolved), with its instruction set
+  std::string reason;   // why lost (no valid beam, prior without free cell, ...); empty otherwise
+  bool proven = false;  // no lattice pose of the prior scores higher than the best one found
+  std::string method;   // the method that answered ("auto" resolved), with its instruction set
   int beams_valid = 0;
   int beams_echo = 0;
   double stamp_s = 0.0;
@@ -76,8 +76,8 @@ struct SearchResult {
 // in parallel and equals the loop over its scans. Safe from any thread.
 // Throws Error{invalid_argument, unknown_name}: an option, prior or scan that does not validate, a
 // prior entirely off the map. A scan without a valid beam is an answer (lost), not an error.
-std::vector<SearchResult> search(const PreparedMap& map, const PosePrior& prior,
-                                 std::span<const Scan> scans, const SearchOptions& options = {});
+std::vector<SearchResult> search(const PreparedMap& map, const PosePrior& prior, std::span<const Scan> scans,
+                                 const SearchOptions& options = {});
 // One prior per scan.
 std::vector<SearchResult> search(const PreparedMap& map, std::span<const PosePrior> priors,
                                  std::span<const Scan> scans, const SearchOptions& options = {});
