@@ -19,9 +19,10 @@ inline constexpr double pose_sigma_rad = 0.03;
 // One sigma of the error of an increment.
 inline OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& T_before_after) {
   const double driven_m = std::hypot(T_before_after.x_m, T_before_after.y_m);
-  return {noise.translation_m + noise.translation_relative * driven_m,
-          noise.rotation_rad + noise.rotation_per_m_rad * driven_m +
-              noise.rotation_relative * std::abs(T_before_after.theta_rad)};
+  const double turned_rad = std::abs(T_before_after.theta_rad);
+  return {
+      noise.translation_m + noise.translation_relative * driven_m + noise.translation_per_rad_m * turned_rad,
+      noise.rotation_rad + noise.rotation_per_m_rad * driven_m + noise.rotation_relative * turned_rad};
 }
 
 }  // namespace landfall::internal
