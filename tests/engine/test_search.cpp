@@ -187,7 +187,7 @@ TEST_F(SearchInARoom, AScanFromElsewhereIsLost) {
 
 TEST_F(SearchInARoom, ABudgetGivesTheBestSoFar) {
   SearchOptions options{
-      .method = "exhaustive", .rotation_step_rad = 2.0 * std::numbers::pi / 36'000, .time_budget_s = 0.03};
+      .method = "exhaustive", .rotation_step_rad = 2.0 * std::numbers::pi / 36'000, .time_budget_s = 0.2};
   const SearchResult result = search(map, {Anywhere{}}, scan, options);
   EXPECT_FALSE(result.proven);
   EXPECT_LT(result.times.propose_ms, 3000.0);

@@ -1,10 +1,13 @@
 #include "kernels/isa.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "instruction_sets.hpp"
+#include "landfall/error.hpp"
 
 namespace landfall {
 namespace {
@@ -40,6 +43,23 @@ TEST(InstructionSets, NoNameGivesTheBestAgain) {
   ASSERT_TRUE(kernels::select_isa("SCALAR"));
   ASSERT_TRUE(kernels::select_isa(""));
   EXPECT_EQ(kernels::isa_name(), best);
+}
+
+// Run by ctest with LANDFALL_ISA set, see CMakeLists.txt.
+TEST(InstructionSets, EnvironmentDecides) {
+  const char* wanted = std::getenv("LANDFALL_ISA");
+  if (wanted == nullptr) GTEST_SKIP() << "LANDFALL_ISA is not set";
+  if (std::string(wanted) == "SCALAR") {
+    EXPECT_EQ(active_isa(), "SCALAR");
+    return;
+  }
+  try {
+    (void)active_isa();
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::unknown_name);
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(wanted));
+  }
 }
 
 }  // namespace
