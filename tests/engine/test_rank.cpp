@@ -125,9 +125,9 @@ struct FindModes : ::testing::Test {
                               .deadline = {}};
 
   [[nodiscard]] Modes find(const std::vector<internal::LatticePose>& poses, std::size_t most = 10) const {
-    std::vector<Candidate> candidates;
-    for (const internal::LatticePose& pose : poses)
-      candidates.push_back({.pose = pose, .score = 1000 - static_cast<std::int32_t>(candidates.size())});
+    std::vector<Candidate> candidates(poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      candidates[i] = {.pose = poses[i], .score = 1000 - static_cast<std::int32_t>(i)};
     return internal::find_modes(query, candidates, most);
   }
 };

@@ -57,7 +57,7 @@ struct Mall {
     while (true) {
       const Pose2 T_map_robot = testing::random_pose(dice, map.grid());
       if (map.grid().at(map.grid().cell_of({T_map_robot.x_m, T_map_robot.y_m})) != Occupancy::free) continue;
-      const Scan scan = simulate(map, scanner, std::vector<Pose2>{T_map_robot}, {.seed = 1}).front();
+      Scan scan = simulate(map, scanner, std::vector<Pose2>{T_map_robot}, {.seed = 1}).front();
       if (count_echoes(scan) > 160) return scan;
     }
   }

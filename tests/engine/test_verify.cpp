@@ -95,9 +95,11 @@ TEST(Verify, ANeighboursRangeExplainsABeamAtAnEdge) {
 
 TEST(Verify, TheTruePoseOfACleanScanExplainsItAll) {
   const PreparedMap map(testing::furnished_room({3.0, -2.0, 0.7}));
-  std::vector<Pose2> T_map_robot;
-  for (int i = 0; i < 20; ++i)
-    T_map_robot.push_back(map.grid().T_map_grid * Pose2{1.03 + 0.3 * i, 1.0 + 0.03 * i, 0.3 * i});
+  std::vector<Pose2> T_map_robot(20);
+  for (std::size_t i = 0; i < T_map_robot.size(); ++i)
+    T_map_robot[i] =
+        map.grid().T_map_grid * Pose2{1.03 + 0.3 * static_cast<double>(i),
+                                      1.0 + 0.03 * static_cast<double>(i), 0.3 * static_cast<double>(i)};
   for (const Pose2& truth : T_map_robot) {
     const Scan scan = testing::look(map, testing::full_circle(360, 4.0), truth);  // some see no wall
     const std::vector<Verification> all = internal::verify(map.state(), scan, T_map_robot);
