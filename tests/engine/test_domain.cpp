@@ -232,7 +232,9 @@ TEST(Domain, PriorSumsToOneOverItsPoses) {
       sum += probability;
     });
     EXPECT_EQ(poses, question.domain.poses);
-    if (poses > 0) EXPECT_NEAR(sum, 1.0, 1e-9);
+    if (poses > 0) {
+      EXPECT_NEAR(sum, 1.0, 1e-9);
+    }
   }
 }
 
