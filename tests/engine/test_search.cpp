@@ -82,7 +82,9 @@ TEST_F(SearchInARoom, HypothesesAreDistinctRankedAndShareOne) {
   for (std::size_t i = 0; i < result.hypotheses.size(); ++i) {
     const Hypothesis& one = result.hypotheses[i];
     sum += one.probability;
-    if (i > 0) EXPECT_LE(one.probability, result.hypotheses[i - 1].probability);
+    if (i > 0) {
+      EXPECT_LE(one.probability, result.hypotheses[i - 1].probability);
+    }
     for (std::size_t j = 0; j < i; ++j) {
       const Pose2& other = result.hypotheses[j].T_map_robot_unrefined;
       EXPECT_TRUE(translation_distance(one.T_map_robot_unrefined, other) >= options.distinct_translation_m ||

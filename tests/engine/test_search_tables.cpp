@@ -50,7 +50,9 @@ TEST(BoundTable, WindowSizesGrowAndAreFound) {
     const int index = BoundTable::window_index(halves);
     ASSERT_GE(index, 0);
     EXPECT_GE(BoundTable::window_halves(index), halves);
-    if (index > 0) EXPECT_LT(BoundTable::window_halves(index - 1), halves);
+    if (index > 0) {
+      EXPECT_LT(BoundTable::window_halves(index - 1), halves);
+    }
   }
   EXPECT_EQ(BoundTable::window_index(BoundTable::window_halves(BoundTable::window_sizes - 1) + 1), -1);
 }
