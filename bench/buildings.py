@@ -15,9 +15,9 @@ import numpy as np
 from landfall.evaluation import Estimate, judge, report
 from landfall.interrupts import CleanStop
 from landfall.outputs import ResultsFile
-from landfall.relocalization import Answers, Question, Tally, relocalize
+from landfall.relocalization import Answers, Question, Tally, relocalize, tie_together
 from landfall.searching import search_options
-from landfall.windows import Query, odometry, scan_windows, single_queries
+from landfall.windows import Query, scan_windows, single_queries
 
 NAMES = ("intel", "csail", "aces", "acapulco", "infinite_corridor")
 WRONG_TRUTH = {"csail": frozenset({198, 199})}  # headings wrong by 11 degrees
@@ -53,8 +53,10 @@ class Building:
         return landfall.load_trajectory(self.folder / "truth.tum")
 
     def ask(self, queries: Sequence[Query], one_at_a_time: bool = False) -> tuple[Answers, Tally]:
-        question = Question([self.map], landfall.Anywhere(), search_options(), one_at_a_time)
-        return relocalize_all(self.scans, queries, question)
+        return relocalize_all(self.scans, queries, self.question(one_at_a_time))
+
+    def question(self, one_at_a_time: bool = False) -> Question:
+        return Question([self.map], landfall.Anywhere(), search_options(), one_at_a_time)
 
     def judge(self, estimates: Sequence[Estimate], exclude: Collection[int] = ()) -> dict:
         judged = judge(self.truth, estimates, estimates_are_queries=True, exclude=exclude)
@@ -144,8 +146,7 @@ def consistent(building: Building, answers: Answers | None) -> dict:
         count = len(building.scans) // 10
         middle = len(building.scans) // 2
         answers, _ = building.ask([Query(i, i) for i in range(middle - count // 2, middle + count // 2)])
-    scans = [building.scans[query.last] for query in answers.queries]
-    answers.choose(landfall.consistent(list(answers.kept.values()), odometry(scans)))
+    tie_together(answers, building.scans, building.question())
     estimates = [
         Estimate(stamp_s, pose) for stamp_s, pose in zip(answers.stamps_s, answers.poses, strict=True)
     ]

@@ -10,7 +10,7 @@ from pathlib import Path
 import landfall
 from buildings import relocalize_all
 from landfall.pictures import draw_trajectory
-from landfall.relocalization import Answers, Question
+from landfall.relocalization import Answers, Question, tie_together
 from landfall.searching import search_options
 from landfall.windows import Composition, odometry, single_queries, time_windows, with_motion
 
@@ -34,7 +34,7 @@ def wean_hall(folder: Path, drive: str, picture: Path) -> dict:
     answers, _ = relocalize_all(log, queries, question)
     T_odom_robot = odometry([log[query.last] for query in queries])
     numbers = {"windows": len(queries), **_first_answers(answers, T_odom_robot)}
-    answers.choose(landfall.consistent(list(answers.kept.values()), T_odom_robot))
+    tie_together(answers, log, question)
     numbers["consistent_jumps"] = sum(not near for near in _agreements(answers.poses, T_odom_robot))
     draw_trajectory([map], answers, picture)
     return numbers

@@ -4,16 +4,32 @@
 #include <cmath>
 
 namespace landfall::internal {
+namespace {
 
-double evidence_nats(std::size_t points) {
-  return 27.3 * std::pow(static_cast<double>(points), 0.25);
+double fourth_root(std::size_t points) {
+  return std::pow(static_cast<double>(points), 0.25);
 }
 
-double elsewhere_weight(double share, double explained) {
-  constexpr double even_sum = 1.4;
-  constexpr double nats_per_sum = 30.0;
+}  // namespace
+
+double log_evidence(double share, std::size_t points) {
+  constexpr double power = 6.5;  // times the fourth root: 24 for 180 echoes
+  constexpr double least_misfit = 0.05;
+  return -power * fourth_root(points) * std::log(least_misfit + std::max(0.0, 1.0 - share));
+}
+
+double rival_share(std::size_t points) {
+  return 0.22 / fourth_root(points);
+}
+
+double elsewhere_weight(double share, double lead_nats) {
+  constexpr double even_share = 0.925;
+  constexpr double nats_per_share = 38.0;
+  constexpr double nats_per_lead = 1.5;
   constexpr double most_nats = 50.0;
-  return std::exp(std::min(most_nats, nats_per_sum * (even_sum - share - explained)));
+  constexpr double longest_lead_nats = 4.5;
+  const double lead = std::clamp(lead_nats, 0.0, longest_lead_nats);
+  return std::exp(std::min(most_nats, nats_per_share * (even_share - share) - nats_per_lead * lead));
 }
 
 }  // namespace landfall::internal

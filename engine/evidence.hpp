@@ -1,11 +1,11 @@
 // What a score is worth: from sums of the field to probabilities.
 //
-// Beams are not independent (neighbours see the same wall, the map has the same faults for all of them),
-// so a scan's likelihood is tempered: exp(nats * share), where share is the score over the best
-// imaginable one, and nats grows with the fourth root of the number of echoes (100 for 180): between
-// independent beams' linear growth and none at all. The constants were chosen once, so that what is
-// called certain is right in 99 of 100 cases in buildings with repeating corridors too, and what is
-// asked of another building's map is called found in less than one of 100 (bench/RESULTS.md, "Verdicts").
+// How far a map is off (furniture moved, people, walls drawn thick) is not known beforehand, and it is off
+// for all beams alike. With errors of unknown scale integrated out, the likelihood of a pose falls with a
+// power of its misfit, 1 - share, where share is the score over the best imaginable one: a scan that fits
+// well tells poses apart sharply, one that fits badly hardly does. Beams are not independent either, so that
+// the power grows with the fourth root of the number of echoes. The constants were chosen once on five
+// buildings (bench/RESULTS.md, "Verdicts").
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,21 @@
 
 namespace landfall::internal {
 
-// Nats for a share of 1, from the number of echoes.
-double evidence_nats(std::size_t points);
+// Log likelihood, but for a constant.
+double log_evidence(double share, std::size_t points);
 // What ray casting adds: the share that a beam seen through a wall costs, and one blocked earns back.
 inline constexpr double ray_share = 0.1;
 
-// What lies this many nats below the best pose is not looked for, and weighs next to nothing.
-inline constexpr double rival_nats = 4.5;
+// What falls short of the best pose by more is not looked for, and weighs next to nothing.
+double rival_share(std::size_t points);
 // What all the poses weigh, beside the best one, that are never looked at.
 inline constexpr double unseen_weight = 0.01;
+// Nats for a share of the beams that a rival explains more of than the best pose: field and rays disagree.
+inline constexpr double explains_more_nats = 30.0;
 
-// What weighs, beside a pose of this share and explained share, that the scan is from no place of the
-// map: a pose found by chance matches less well. Even odds where both add up to 1.4.
-double elsewhere_weight(double share, double explained);
+// What weighs, beside the best pose, that the scan is from no place of the map: a pose found by chance
+// matches less well, and others come close. lead_nats: what the best pose is ahead of the next.
+double elsewhere_weight(double share, double lead_nats);
 
 inline double share_of(std::int32_t score, std::size_t points) {
   return static_cast<double>(score) / (255.0 * static_cast<double>(points));

@@ -8,7 +8,7 @@
 namespace landfall::internal {
 
 std::int32_t rival_margin(std::size_t points) {
-  return static_cast<std::int32_t>(rival_nats / evidence_nats(points) * 255.0 * static_cast<double>(points));
+  return static_cast<std::int32_t>(rival_share(points) * 255.0 * static_cast<double>(points));
 }
 
 std::int32_t second_margin(std::size_t points) {

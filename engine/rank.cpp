@@ -23,12 +23,29 @@ double share_of_rays(const Verification& verification) {
   return ray_share * (verification.blocked - verification.seen_through);
 }
 
+// The score of the best lattice pose beside that of the pose: points are off by up to half a step, which
+// costs a Gaussian field half their variance over its own. What the finest lattices miss is not counted.
+double missed_share(const Query& query) {
+  constexpr double always = 0.03;
+  const Lattice& lattice = query.lattice;
+  double squared_cells = 0.0;
+  for (std::size_t i = 0; i < query.points.size(); ++i)
+    squared_cells +=
+        query.points.x_cells[i] * query.points.x_cells[i] + query.points.y_cells[i] * query.points.y_cells[i];
+  const double mean_squared_cells =
+      squared_cells / static_cast<double>(std::max<std::size_t>(1, query.points.size()));
+  const double turned = lattice.heading_step_rad() * lattice.heading_step_rad() * mean_squared_cells;
+  const double moved = 2.0 * lattice.step_cells * lattice.step_cells;
+  const double sigma_cells = query.map.options().field_sigma_m / lattice.resolution_m;
+  return std::clamp(0.5 * (turned + moved) / 12.0 / (sigma_cells * sigma_cells) - always, 0.0, 1.0);
+}
+
 }  // namespace
 
 Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most) {
   constexpr std::size_t most_counted = 64;
   const std::size_t points = query.points.size();
-  Modes found{.modes = {}, .log_rest = nothing, .nats = evidence_nats(points), .points = points};
+  Modes found{.modes = {}, .log_rest = nothing, .missed_share = missed_share(query), .points = points};
   std::vector<Pose2> T_map_mode;
   for (const Candidate& candidate : candidates) {
     const Pose2 T_map_robot = query.lattice.T_map_robot(candidate.pose);
@@ -40,56 +57,73 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
     if (known) continue;
     if (T_map_mode.size() >= most_counted) break;
     T_map_mode.push_back(T_map_robot);
-    const double log_mass = found.nats * share_of(candidate.score, points) +
-                            query.domain.log_prior(query.lattice, candidate.pose);
+    const double share = share_of(candidate.score, points);
+    const double log_prior = query.domain.log_prior(query.lattice, candidate.pose);
     if (found.modes.size() < most) {
       found.modes.push_back({.best = candidate,
-                             .log_mass = log_mass,
-                             .share = 0.0,
+                             .log_prior = log_prior,
+                             .share = share,
                              .map_index = 0,
                              .verification = {},
                              .hypothesis = {}});
     } else {
-      found.log_rest = log_add(found.log_rest, log_mass);
+      found.log_rest = log_add(found.log_rest, log_prior + log_evidence(share, points));
     }
   }
   return found;
 }
 
-void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result) {
-  std::vector<Mode> all;
-  double log_total = nothing;
+namespace {
+
+struct Ranked {
+  Mode mode;
+  double log_mass;  // prior x likelihood
+};
+
+std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
   bool any_explains = false;
   for (const Modes& map : maps)
     for (const Mode& mode : map.modes)
       any_explains = any_explains || mode.hypothesis.explained >= least_explained;
+  std::vector<Ranked> all;
   for (const Modes& map : maps) {
-    log_total = log_add(log_total, map.log_rest);
-    for (Mode mode : map.modes) {
-      const double lattice_share = share_of(mode.best.score, map.points);
-      mode.log_mass += map.nats * (mode.share - lattice_share + share_of_rays(mode.verification));
+    for (const Mode& mode : map.modes) {
+      double log_mass =
+          mode.log_prior + log_evidence(mode.share + share_of_rays(mode.verification), map.points);
       // A pose that would be lost by itself is no rival of one that explains the scan.
-      if (any_explains && mode.hypothesis.explained < least_explained) mode.log_mass -= unexplained_nats;
-      mode.share = lattice_share;
-      log_total = log_add(log_total, mode.log_mass);
-      all.push_back(std::move(mode));
+      if (any_explains && mode.hypothesis.explained < least_explained) log_mass -= unexplained_nats;
+      all.push_back({mode, log_mass});
     }
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Mode& a, const Mode& b) { return a.log_mass > b.log_mass; });
-  if (!all.empty()) {
-    const Mode& best = all.front();
-    log_total = log_add(
-        log_total,
-        best.log_mass + std::log(unseen_weight + elsewhere_weight(best.share, best.hypothesis.explained)));
+                   [](const Ranked& a, const Ranked& b) { return a.log_mass > b.log_mass; });
+  return all;
+}
+
+// What a rival that explains more beams than the best pose weighs: up to as much as that one.
+void weigh_disagreement(std::vector<Ranked>& all) {
+  const Ranked& best = all.front();
+  for (Ranked& rival : all) {
+    const double more = rival.mode.hypothesis.explained - best.mode.hypothesis.explained;
+    rival.log_mass = std::min(best.log_mass, rival.log_mass + explains_more_nats * std::max(0.0, more));
   }
-  if (all.size() > static_cast<std::size_t>(max_hypotheses))
-    all.resize(static_cast<std::size_t>(max_hypotheses));
-  for (Mode& mode : all) {
-    mode.hypothesis.probability = std::exp(mode.log_mass - log_total);
-    mode.hypothesis.map_index = mode.map_index;
-    result.hypotheses.push_back(mode.hypothesis);
-  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.log_mass > b.log_mass; });
+}
+
+// Of everything: the modes, those beyond them, poses never looked at, and being elsewhere.
+double log_total(const std::vector<Modes>& maps, const std::vector<Ranked>& all) {
+  double total = nothing;
+  for (const Modes& map : maps) total = log_add(total, map.log_rest);
+  for (const Ranked& one : all) total = log_add(total, one.log_mass);
+  const Ranked& best = all.front();
+  const double lead_nats = best.log_mass - (all.size() > 1 ? all[1].log_mass : nothing);
+  const double lattice_share = share_of(best.mode.best.score, maps.front().points);
+  const double share = std::min(1.0, lattice_share + maps.front().missed_share);
+  return log_add(total, best.log_mass + std::log(unseen_weight + elsewhere_weight(share, lead_nats)));
+}
+
+void decide(SearchResult& result) {
   constexpr double sure = 0.95;
   if (result.hypotheses.empty()) {
     result.verdict = Verdict::lost;
@@ -101,6 +135,24 @@ void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& resu
   } else {
     result.verdict = result.hypotheses.front().probability >= sure ? Verdict::found : Verdict::ambiguous;
   }
+}
+
+}  // namespace
+
+void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result) {
+  std::vector<Ranked> all = in_order(maps);
+  if (!all.empty()) {
+    weigh_disagreement(all);
+    const double total = log_total(maps, all);
+    if (all.size() > static_cast<std::size_t>(max_hypotheses))
+      all.resize(static_cast<std::size_t>(max_hypotheses));
+    for (Ranked& one : all) {
+      Hypothesis& hypothesis = result.hypotheses.emplace_back(one.mode.hypothesis);
+      hypothesis.probability = std::exp(one.log_mass - total);
+      hypothesis.map_index = one.mode.map_index;
+    }
+  }
+  decide(result);
 }
 
 }  // namespace landfall::internal

@@ -15,8 +15,8 @@ inline constexpr double least_explained = 0.5;
 // the mass: sums over the lattice favoured blurred matches over sharp ones (intel: five queries of 455).
 struct Mode {
   Candidate best;
-  double log_mass = 0.0;  // prior x likelihood; natural logarithm
-  double share = 0.0;     // of the best imaginable score, at the refined pose
+  double log_prior = 0.0;
+  double share = 0.0;  // of the best imaginable score, at the refined pose
   int map_index = 0;
   Verification verification;
   Hypothesis hypothesis;  // filled in by refine and verify
@@ -24,9 +24,9 @@ struct Mode {
 
 // What one map has to say of one scan.
 struct Modes {
-  std::vector<Mode> modes;  // best score first
-  double log_rest = 0.0;    // mass of the modes beyond the last one
-  double nats = 0.0;        // what a share of 1 is worth
+  std::vector<Mode> modes;    // best score first
+  double log_rest = 0.0;      // mass of the modes beyond the last one: prior x likelihood
+  double missed_share = 0.0;  // that a coarse lattice hides of the best pose's share
   std::size_t points = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/to_raycast.hpp"
+#include "engine/wall_depth.hpp"
 
 namespace landfall::internal {
 namespace {
@@ -59,7 +60,15 @@ float mismatch_m(const ValidBeam& beam, const std::array<float, 3>& simulated_m)
   return least;
 }
 
-Verification judge(const std::vector<ValidBeam>& valid, std::span<const float> simulated_m) {
+// An echo behind the wall's face, but not behind the wall.
+bool is_from_within_wall(const PreparedState& map, const Pose2& T_map_beam, const ValidBeam& beam,
+                         float simulated_m) {
+  if (!beam.echo || !(beam.range_m > simulated_m)) return false;
+  return ends_within_wall(map.grid(), T_map_beam, simulated_m, beam.range_m - beam.tolerance_m);
+}
+
+Verification judge(const PreparedState& map, const Sensor& sensor, const Pose2& T_map_robot,
+                   const std::vector<ValidBeam>& valid, std::span<const float> simulated_m) {
   constexpr float well_off_m = 0.5F;
   Verification sums;
   for (std::size_t i = 0; i < valid.size(); ++i) {
@@ -67,7 +76,11 @@ Verification judge(const std::vector<ValidBeam>& valid, std::span<const float> s
     const float before_m = i > 0 && valid[i - 1].next_is_neighbour ? simulated_m[i - 1] : here_m;
     const float after_m = valid[i].next_is_neighbour ? simulated_m[i + 1] : here_m;
     const float off_m = mismatch_m(valid[i], {before_m, here_m, after_m});
-    if (std::abs(off_m) <= valid[i].tolerance_m) sums.explained += 1.0;
+    if (std::abs(off_m) <= valid[i].tolerance_m ||
+        is_from_within_wall(map, T_map_robot * sensor.beams[valid[i].beam].T_robot_beam, valid[i], here_m)) {
+      sums.explained += 1.0;
+      continue;
+    }
     if (valid[i].echo && off_m < -valid[i].tolerance_m) sums.blocked += 1.0;
     if (valid[i].echo && off_m > std::max(well_off_m, valid[i].tolerance_m)) sums.seen_through += 1.0;
   }
@@ -94,7 +107,8 @@ std::vector<Verification> verify(const PreparedState& map, const Scan& scan,
   std::vector<float> simulated_m(poses.size() * beams.size());
   map.scene().cast_fans(poses, beams, simulated_m);
   for (std::size_t p = 0; p < poses.size(); ++p)
-    answers[p] = judge(valid, std::span(simulated_m).subspan(p * beams.size(), beams.size()));
+    answers[p] = judge(map, *scan.sensor, T_map_robot[p], valid,
+                       std::span(simulated_m).subspan(p * beams.size(), beams.size()));
   return answers;
 }
 

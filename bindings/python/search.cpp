@@ -64,24 +64,17 @@ void bind_search(nb::module_& module) {
       "Per result the index of the hypothesis that odometry ties to its neighbours' (Viterbi), or -1 where\n"
       "it has none. Raises InvalidArgument where the lengths differ.");
 
-  nb::class_<Prediction>(module, "Prediction",
-                         "A result whose neighbours place the robot where it has no hypothesis.")
-      .def_ro("index", &Prediction::index, "Of the result.")
-      .def_ro("map_index", &Prediction::map_index)
-      .def_prop_ro("prior", [](const Prediction& self) { return PosePrior{self.prior}; });
   module.def(
-      "predict",
-      [](const std::vector<SearchResult>& results, const std::vector<int>& choice,
-         const PosesArgument& T_odom_robot) {
-        const std::vector<Pose2> poses = poses_from(T_odom_robot, "predict");
-        const nb::gil_scoped_release released;
-        return predict(results, choice, poses);
-      },
-      "results"_a, "choice"_a, "T_odom_robot"_a,
-      "Where chosen hypotheses and odometry place a neighbour that has no hypothesis there: a list of\n"
-      "Prediction to search again. Raises InvalidArgument where the lengths differ.");
-  module.def("add_predicted", &add_predicted, "result"_a, "answer"_a, "map_index"_a,
-             "Adds the first hypothesis of `answer`, found under a prediction, to `result`.");
+      "follow",
+      [](const std::vector<PreparedMap>& maps, const std::vector<Scan>& scans,
+         std::vector<SearchResult> results,
+         const SearchOptions& options) { return follow(maps, scans, std::move(results), options); },
+      "maps"_a, "scans"_a, "results"_a, "options"_a = SearchOptions{},
+      nb::call_guard<nb::gil_scoped_release>(),
+      "The results with more hypotheses: where a neighbour's probable ones and odometry place the robot, "
+      "and\n"
+      "none of the scan's own is near, the scan is asked again there. For consistent(). Raises\n"
+      "InvalidArgument where the lengths differ or a scan has no T_odom_robot.");
 
   module.def(
       "methods",

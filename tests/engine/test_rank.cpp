@@ -22,7 +22,7 @@ Mode mode_of(double share, double explained, double log_prior = 0.0, int map_ind
   Mode mode;
   mode.best.score = static_cast<std::int32_t>(share * perfect_score);
   mode.share = share;
-  mode.log_mass = 100.0 * share + log_prior;
+  mode.log_prior = log_prior;
   mode.map_index = map_index;
   mode.verification = {.explained = explained, .blocked = 1.0 - explained, .seen_through = 0.0};
   mode.hypothesis.explained = explained;
@@ -31,10 +31,7 @@ Mode mode_of(double share, double explained, double log_prior = 0.0, int map_ind
 }
 
 Modes modes_of(std::vector<Mode> modes) {
-  return {.modes = std::move(modes),
-          .log_rest = -std::numeric_limits<double>::infinity(),
-          .nats = 100.0,
-          .points = echoes};
+  return {.modes = std::move(modes), .log_rest = -std::numeric_limits<double>::infinity(), .points = echoes};
 }
 
 SearchResult ranked(const std::vector<Modes>& maps, int max_hypotheses = 5, bool proven = true) {
@@ -53,11 +50,11 @@ TEST(Rank, AGoodPoseWithoutRivalIsFound) {
 }
 
 TEST(Rank, EqualRivalsShare) {
-  const SearchResult result = ranked({modes_of({mode_of(0.95, 0.98), mode_of(0.95, 0.98)})});
+  const SearchResult result = ranked({modes_of({mode_of(0.99, 0.98), mode_of(0.99, 0.98)})});
   EXPECT_EQ(result.verdict, Verdict::ambiguous);
   EXPECT_EQ(result.reason, "");
   EXPECT_DOUBLE_EQ(result.hypotheses.at(0).probability, result.hypotheses.at(1).probability);
-  EXPECT_NEAR(result.hypotheses.at(0).probability, 0.5, 0.02);
+  EXPECT_NEAR(result.hypotheses.at(0).probability, 0.5, 0.03);
 }
 
 TEST(Rank, PriorsMultiplyTheLikelihood) {
@@ -73,6 +70,31 @@ TEST(Rank, ABetterScoreIsMoreProbable) {
     last = result.hypotheses.at(0).probability;
   }
   EXPECT_GT(last, 0.95);
+}
+
+TEST(Rank, ABadFitTellsPosesApartLess) {
+  const auto probability = [](double share) {
+    return ranked({modes_of({mode_of(share, 0.9), mode_of(share - 0.03, 0.9)})}).hypotheses.at(0).probability;
+  };
+  EXPECT_GT(probability(0.95), probability(0.90));
+  EXPECT_GT(probability(0.90), probability(0.80));
+}
+
+TEST(Rank, APoseFoundByChanceIsNotCalledFound) {
+  EXPECT_EQ(ranked({modes_of({mode_of(0.85, 0.9)})}).verdict, Verdict::found);
+  EXPECT_EQ(ranked({modes_of({mode_of(0.75, 0.9)})}).verdict, Verdict::ambiguous);
+  EXPECT_EQ(ranked({modes_of({mode_of(0.85, 0.9), mode_of(0.82, 0.9)})}).verdict, Verdict::ambiguous);
+}
+
+TEST(Rank, ARivalThatExplainsMoreBeamsShakesTheBest) {
+  const auto probability = [](double rival_explained) {
+    const SearchResult result = ranked({modes_of({mode_of(0.95, 0.85), mode_of(0.91, rival_explained)})});
+    EXPECT_NEAR(result.hypotheses.at(0).explained, 0.85, 1e-12);
+    EXPECT_GE(result.hypotheses.at(0).probability, result.hypotheses.at(1).probability);
+    return result.hypotheses.at(0).probability;
+  };
+  EXPECT_GT(probability(0.85), probability(0.90));
+  EXPECT_GT(probability(0.90), probability(0.95));
 }
 
 TEST(Rank, MapsAreRankedTogether) {

@@ -8,10 +8,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from landfall._landfall import Pose2, PosePrior, PreparedMap, Scan, SearchOptions, SearchResult, search_batch
+from landfall._landfall import (
+    Pose2,
+    PosePrior,
+    PreparedMap,
+    Scan,
+    SearchOptions,
+    SearchResult,
+    consistent,
+    follow,
+    search_batch,
+)
 from landfall.interrupts import CleanStop
 from landfall.outputs import ResultsFile
-from landfall.windows import Composition, Query, compose
+from landfall.windows import Composition, Query, compose, odometry
 
 CHUNK_S = 1.0  # work between two looks at the clock: the bar moves and Ctrl-C is answered
 MAX_CHUNK = 4096
@@ -70,6 +80,7 @@ class Answers:
     poses: list[Pose2 | None] = field(default_factory=list)
     verdicts: list[str] = field(default_factory=list)
     map_indices: list[int] = field(default_factory=list)
+    choices: list[int] = field(default_factory=list)  # of the hypotheses, -1: none
     kept: dict[int, SearchResult] = field(default_factory=dict)  # by position
 
     def add(self, query: Query, result: SearchResult, keep: bool) -> None:
@@ -82,12 +93,13 @@ class Answers:
 
     def _append_choice(self, result: SearchResult, choice: int) -> None:
         best = result.hypotheses[choice] if choice >= 0 else None
+        self.choices.append(choice)
         self.poses.append(best.T_map_robot if best else None)
         self.map_indices.append(best.map_index if best else 0)
 
     def choose(self, choices: Sequence[int]) -> None:
         """Replaces the first hypotheses by the chosen ones; every result must have been kept."""
-        self.poses, self.map_indices = [], []
+        self.poses, self.map_indices, self.choices = [], [], []
         for position, choice in enumerate(choices):
             self._append_choice(self.kept[position], choice)
 
@@ -123,6 +135,18 @@ def relocalize(
         position += len(chunk)
         size = _next_size(size, time.monotonic() - started_s)
     return answers, tally
+
+
+def tie_together(answers: Answers, log: Sequence[Scan], question: Question) -> None:
+    """Puts the most probable sequence of hypotheses in place of each query's first; every result was kept.
+
+    Where odometry leads to a place which a query did not list, the query is asked again there.
+    """
+    scans = compose(log, answers.queries, question.composition)
+    kept = [answers.kept[position] for position in range(len(answers.queries))]
+    results = follow(question.maps, scans, kept, question.options)
+    answers.kept = dict(enumerate(results))
+    answers.choose(consistent(results, odometry(scans)))
 
 
 def _next_size(size: int, took_s: float) -> int:

@@ -11,7 +11,7 @@ namespace landfall {
 
 struct ConsistentOptions {
   OdometryNoise odometry;
-  double jump_probability = 1e-4;  // that odometry says nothing between two neighbours (kidnapped)
+  double jump_probability = 1e-6;  // that odometry says nothing between two neighbours (kidnapped)
 };
 
 // choice[i]: index into results[i].hypotheses of the most probable sequence (Viterbi), or -1 where
@@ -20,18 +20,13 @@ struct ConsistentOptions {
 std::vector<int> consistent(std::span<const SearchResult> results, std::span<const Pose2> T_odom_robot,
                             const ConsistentOptions& options = {});
 
-// Where a result's neighbours and odometry say that the robot must have been, but none of its hypotheses
-// is: ask that scan again under `prior` on map `map_index`, and add what comes to its hypotheses.
-struct Prediction {
-  std::size_t index = 0;  // of the result
-  Gaussian prior;
-  int map_index = 0;
-};
-// From each chosen hypothesis to the results before and after it. Same lengths; Error as above.
-std::vector<Prediction> predict(std::span<const SearchResult> results, std::span<const int> choice,
-                                std::span<const Pose2> T_odom_robot, const ConsistentOptions& options = {});
-// Adds the first hypothesis of `answer` (to the same scan, under a prediction) to `result`, with the
-// probability that its score deserves beside the best one there. Nothing where it has one nearby.
-void add_predicted(SearchResult& result, const SearchResult& answer, int map_index);
+// The results with more hypotheses: where a neighbour's probable ones and odometry place the robot, and none
+// of the scan's own is near, the scan is asked again there, along the log and back. A scan that fits many
+// places then lists the one that its neighbours know. Verdicts stay; what is added comes last.
+// results[i] answers scans[i]. Throws Error{invalid_argument} where the lengths differ or a scan has no
+// T_odom_robot.
+std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<const Scan> scans,
+                                 std::vector<SearchResult> results, const SearchOptions& search_options = {},
+                                 const ConsistentOptions& options = {});
 
 }  // namespace landfall

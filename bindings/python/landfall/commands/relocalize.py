@@ -8,16 +8,7 @@ from typing import Annotated
 
 import typer
 
-from landfall._landfall import (
-    Log,
-    Prediction,
-    Scan,
-    SearchResult,
-    add_predicted,
-    consistent,
-    predict,
-    search_batch,
-)
+from landfall._landfall import Log, Scan
 from landfall.commands.options import (
     LogFile,
     Maps,
@@ -47,12 +38,11 @@ from landfall.outputs import (
     write_trajectory,
 )
 from landfall.progress import progress_bar
-from landfall.relocalization import Answers, Question, relocalize
+from landfall.relocalization import Answers, Question, relocalize, tie_together
 from landfall.searching import search_options
 from landfall.windows import (
     Composition,
     Query,
-    compose,
     odometry,
     scan_windows,
     single_queries,
@@ -60,7 +50,6 @@ from landfall.windows import (
     with_motion,
 )
 
-RECONSIDERATIONS = 3  # rounds of asking again where the consistent sequence leads
 CONSISTENT_HYPOTHESES = 20  # to choose among, at least
 
 
@@ -151,7 +140,10 @@ def run(
                 stop=stop,
             )
         if consistent:
-            _choose(answers, scans, question, results)
+            tie_together(answers, scans, question)
+            if results is not None:
+                lines = [answers.kept[i].to_json(query.last) for i, query in enumerate(answers.queries)]
+                rewrite_chosen(results, lines, answers.choices)
         if out is not None:
             write_trajectory(answers.trajectory(), out)
     print_table(tally.rows())
@@ -191,47 +183,6 @@ def _queries(
     else:
         queries = single_queries(len(scans), every)
     return with_motion(scans, queries, min_motion_m) if min_motion_m > 0 else queries
-
-
-def _choose(answers: Answers, scans: list[Scan], question: Question, results: Path | None) -> None:
-    """The most probable sequence of hypotheses, in place of each query's first.
-
-    Where that sequence leads to a place which a query did not list, the query is asked again there.
-    """
-    kept = [answers.kept[position] for position in range(len(answers.queries))]
-    T_odom_robot = odometry([scans[query.last] for query in answers.queries])
-    choices = consistent(kept, T_odom_robot)
-    for _ in range(RECONSIDERATIONS):
-        predictions = predict(kept, choices, T_odom_robot)
-        if not predictions:
-            break
-        for prediction, answer in zip(
-            predictions, _ask_again(predictions, answers, scans, question), strict=True
-        ):
-            add_predicted(kept[prediction.index], answer, prediction.map_index)
-        choices = consistent(kept, T_odom_robot)
-    answers.choose(choices)
-    if results is not None:
-        rewrite_chosen(
-            results,
-            [result.to_json(query.last) for result, query in zip(kept, answers.queries, strict=True)],
-            choices,
-        )
-
-
-def _ask_again(
-    predictions: list[Prediction], answers: Answers, scans: list[Scan], question: Question
-) -> list[SearchResult]:
-    """Answers in the order of the predictions, each on its own map under its own prior."""
-    composites = compose(scans, [answers.queries[one.index] for one in predictions], question.composition)
-    found: dict[int, SearchResult] = {}
-    for map_index, prepared in enumerate(question.maps):
-        on_map = [i for i, one in enumerate(predictions) if one.map_index == map_index]
-        if on_map:
-            priors = [predictions[i].prior for i in on_map]
-            given = search_batch([prepared], priors, [composites[i] for i in on_map], question.options)
-            found.update(zip(on_map, given, strict=True))
-    return [found[i] for i in range(len(predictions))]
 
 
 def _evenly(count: int, wanted: int) -> set[int]:
