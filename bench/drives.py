@@ -33,18 +33,18 @@ def wean_hall(folder: Path, drive: str, picture: Path) -> dict:
     )
     answers, _ = relocalize_all(log, queries, question)
     T_odom_robot = odometry([log[query.last] for query in queries])
-    numbers = {"windows": len(queries), **_first_answers(answers, T_odom_robot)}
+    numbers = {"windows": len(queries), "alone": _explained_and_agreeing(answers, T_odom_robot)}
     tie_together(answers, log, question)
-    numbers["consistent_jumps"] = sum(not near for near in _agreements(answers.poses, T_odom_robot))
+    numbers["tied"] = _explained_and_agreeing(answers, T_odom_robot)
     draw_trajectory([map], answers, picture)
     return numbers
 
 
-def _first_answers(answers: Answers, T_odom_robot: Sequence[landfall.Pose2]) -> dict:
-    """A window is right where the map explains it and it agrees with the window before (the first: after)."""
+def _explained_and_agreeing(answers: Answers, T_odom_robot: Sequence[landfall.Pose2]) -> dict:
+    """Of the chosen hypotheses. Right: the map explains it and it agrees with the window before (the first: after)."""
     explained = [
-        bool(result.hypotheses) and result.hypotheses[0].explained >= EXPLAINED
-        for result in answers.kept.values()
+        choice >= 0 and answers.kept[position].hypotheses[choice].explained >= EXPLAINED
+        for position, choice in enumerate(answers.choices)
     ]
     agrees = _agreements(answers.poses, T_odom_robot)
     right = [e and a for e, a in zip(explained, [agrees[0], *agrees], strict=True)]
@@ -52,6 +52,7 @@ def _first_answers(answers: Answers, T_odom_robot: Sequence[landfall.Pose2]) -> 
         "explained": sum(explained) / len(explained),
         "neighbours_agree": sum(agrees) / len(agrees),
         "right": sum(right) / len(right),
+        "jumps": len(agrees) - sum(agrees),
     }
 
 

@@ -14,8 +14,8 @@ namespace {
 using namespace internal;
 
 // Less probable ones are not followed: a sequence that is worth less cannot be made good by a jump.
-constexpr double followed_nats = 25.0;
-constexpr std::size_t most_followed = 32;
+constexpr double followed_nats = 20.0;
+constexpr std::size_t most_followed = 12;
 constexpr double same_m = 0.1;
 constexpr double same_rad = 0.02;
 

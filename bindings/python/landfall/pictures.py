@@ -16,7 +16,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.transforms import Affine2D
 
-from landfall._landfall import GridMap, Pose2, PreparedMap, Scan, SearchResult
+from landfall._landfall import GridMap, Hypothesis, Pose2, PreparedMap, Scan, SearchResult
 from landfall.relocalization import Answers
 
 UNKNOWN_COLOR = "#d9dde1"
@@ -27,13 +27,19 @@ VERDICT_COLORS = {"found": "#1a9850", "ambiguous": "#f39c12", "lost": "#d7263d"}
 DPI = 130
 HEIGHT_IN = 6.6  # of the panels of one answer
 CLOSE_UP_MARGIN_M = 1.5
+MOST_DRAWN = 9  # of one answer's hypotheses
 
 Box = tuple[float, float, float, float]  # x0, x1, y0, y1 in the map frame
 
 
-def draw_answer(maps: Sequence[PreparedMap], scan: Scan, result: SearchResult, path: Path) -> None:
-    """The whole map with the best pose and its rivals; beside it the scan at the best pose, close up."""
-    best = result.hypotheses[0] if result.hypotheses else None
+def draw_answer(
+    maps: Sequence[PreparedMap], scan: Scan, result: SearchResult, path: Path, choice: int = 0
+) -> None:
+    """The whole map with the best pose and its rivals; beside it the scan at the best pose, close up.
+
+    choice: the hypothesis that counts as the best.
+    """
+    best = result.hypotheses[choice] if result.hypotheses else None
     map_index = best.map_index if best else 0
     grid = maps[map_index].grid
     box = known_box(grid)
@@ -41,14 +47,14 @@ def draw_answer(maps: Sequence[PreparedMap], scan: Scan, result: SearchResult, p
     figure = Figure(figsize=(HEIGHT_IN * (ratio + 1.0) + 1.0, HEIGHT_IN + 1.2), layout="constrained")
     whole, close = figure.subplots(1, 2, width_ratios=[ratio, 1.0])
     figure.get_layout_engine().set(h_pad=0.12)  # type: ignore[union-attr, call-arg]
-    figure.suptitle(_headline(result, maps), fontsize=13)
+    figure.suptitle(_headline(result, best, maps), fontsize=13)
     draw_map(whole, grid, box, HEIGHT_IN * ratio)
     if best is None:
         close.set_axis_off()
     else:
         points = in_map(best.T_map_robot, scan.points_robot())
         whole.scatter(points[:, 0], points[:, 1], s=2, color=BEST_COLOR, linewidths=0, zorder=3)
-        _draw_hypotheses(whole, result, map_index)
+        _draw_hypotheses(whole, result, choice, map_index)
         _draw_close_up(close, grid, points, best.T_map_robot)
         figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     _save(figure, path)
@@ -129,14 +135,15 @@ def _figure_size(box: Box) -> tuple[float, float]:
     return max((box[1] - box[0]) * scale, 5.0), max((box[3] - box[2]) * scale, 4.0) + 0.6
 
 
-def _draw_hypotheses(axes: Axes, result: SearchResult, map_index: int) -> None:
-    """Arrows with rank and probability; the best on top."""
+def _draw_hypotheses(axes: Axes, result: SearchResult, choice: int, map_index: int) -> None:
+    """Arrows with rank and probability; the chosen one in its own colour, on top."""
     for rank, hypothesis in enumerate(result.hypotheses):
-        if hypothesis.map_index != map_index:
+        if hypothesis.map_index != map_index or (rank >= MOST_DRAWN and rank != choice):
             continue
-        color = BEST_COLOR if rank == 0 else RIVAL_COLORS[(rank - 1) % len(RIVAL_COLORS)]
+        color = BEST_COLOR if rank == choice else RIVAL_COLORS[rank % len(RIVAL_COLORS)]
         label = f"{rank + 1}: p {hypothesis.probability:.3f}, explained {hypothesis.explained:.2f}"
-        _draw_robot(axes, hypothesis.T_map_robot, color, _arrow_length_m(axes), label, zorder=10 - rank)
+        zorder = 11 if rank == choice else 10 - rank
+        _draw_robot(axes, hypothesis.T_map_robot, color, _arrow_length_m(axes), label, zorder)
 
 
 def _arrow_length_m(axes: Axes) -> float:
@@ -170,10 +177,9 @@ def _draw_close_up(axes: Axes, grid: GridMap, points: np.ndarray, T_map_robot: P
     axes.set_title(f"{len(points)} echoes at the best pose", fontsize=10)
 
 
-def _headline(result: SearchResult, maps: Sequence[PreparedMap]) -> str:
-    if not result.hypotheses:
+def _headline(result: SearchResult, best: Hypothesis | None, maps: Sequence[PreparedMap]) -> str:
+    if best is None:
         return f"{result.verdict}: {result.reason}"
-    best = result.hypotheses[0]
     pose = best.T_map_robot
     where = f" on {maps[best.map_index].name}" if len(maps) > 1 else ""
     return (
@@ -184,7 +190,12 @@ def _headline(result: SearchResult, maps: Sequence[PreparedMap]) -> str:
 
 
 def _draw_verdicts(axes: Axes, answers: Answers, map_index: int) -> None:
-    """Dots with heading ticks, the sure ones drawn first."""
+    """Dots with heading ticks, the sure ones drawn first, and their order as a thin line."""
+    path = [
+        (pose.x_m, pose.y_m) if pose is not None and index == map_index else (math.nan, math.nan)
+        for pose, index in zip(answers.poses, answers.map_indices, strict=True)
+    ]
+    axes.plot(*np.array(path).reshape(-1, 2).T, color="#5b6770", linewidth=0.6, alpha=0.6, zorder=2)
     tick_m = 0.4 * _arrow_length_m(axes)
     for verdict, color in VERDICT_COLORS.items():
         poses = [

@@ -209,4 +209,4 @@ def _draw(
         query = answers.queries[position]
         scan = query.scan(scans, question.composition)
         file = make_folder(folder) / f"query_{query.last:05d}.png"
-        draw_answer(question.maps, scan, answers.kept[position], file)
+        draw_answer(question.maps, scan, answers.kept[position], file, max(answers.choices[position], 0))
