@@ -41,7 +41,7 @@ def wean_hall(folder: Path, drive: str, picture: Path) -> dict:
 
 
 def _explained_and_agreeing(answers: Answers, T_odom_robot: Sequence[landfall.Pose2]) -> dict:
-    """Of the chosen hypotheses. Right: the map explains it and it agrees with the window before (the first: after)."""
+    """Of the chosen hypotheses. Right: explained, and it agrees with the window before (the first: after)."""
     explained = [
         choice >= 0 and answers.kept[position].hypotheses[choice].explained >= EXPLAINED
         for position, choice in enumerate(answers.choices)
