@@ -150,6 +150,11 @@ std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<co
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!scans[i].T_odom_robot)
       throw Error(ErrorCode::invalid_argument, "follow: scan " + std::to_string(i) + " has no T_odom_robot");
+    for (const Hypothesis& one : results[i].hypotheses)
+      if (one.map_index < 0 || static_cast<std::size_t>(one.map_index) >= maps.size())
+        throw Error(ErrorCode::invalid_argument, "follow: result " + std::to_string(i) + " is on map " +
+                                                     std::to_string(one.map_index) + " of " +
+                                                     std::to_string(maps.size()));
     order.push_back(i);
   }
   Follower follower(maps, scans, results, search_options, options);

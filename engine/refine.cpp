@@ -41,8 +41,15 @@ struct Normal {
   double field = 0.0;  // sum over the points
 };
 
-// Residuals 1 - field(end point); pose in cells and radians in the grid's frame.
-Normal linearise(const PreparedState& map, const EndPoints& points, const Eigen::Vector3d& pose) {
+enum class Residual {
+  lack,  // 1 - field: the paper's. Flat near a wall, it listens to points that are off.
+  root   // its square root, near a wall the distance: it listens to points that fit.
+};
+
+// Residuals of the end points; pose in cells and radians in the grid's frame.
+Normal linearise(const PreparedState& map, const EndPoints& points, const Eigen::Vector3d& pose,
+                 Residual residual) {
+  constexpr double least_lack = 0.02;  // the root is steep at 0
   const std::uint8_t* field = map.field().data();
   const int width = map.grid().width_cells;
   const int height = map.grid().height_cells;
@@ -53,12 +60,14 @@ Normal linearise(const PreparedState& map, const EndPoints& points, const Eigen:
     const double x = c * points.x_cells[i] - s * points.y_cells[i];
     const double y = s * points.x_cells[i] + c * points.y_cells[i];
     const FieldSample at = sample(field, width, height, pose[0] + x, pose[1] + y);
-    const double residual = 1.0 - at.value;
-    normal.cost += residual * residual;
+    const double lack = 1.0 - at.value;
+    const bool root = residual == Residual::root;
+    normal.cost += root ? lack : lack * lack;
     normal.field += at.value;
     const Eigen::Vector3d slope(at.d_col, at.d_row, at.d_row * x - at.d_col * y);
-    normal.hessian.noalias() += slope * slope.transpose();
-    normal.gradient += residual * slope;
+    const double weight = root ? 0.25 / std::max(least_lack, lack) : 1.0;
+    normal.hessian.noalias() += weight * slope * slope.transpose();
+    normal.gradient += (root ? 0.5 : lack) * slope;
   }
   return normal;
 }
@@ -83,42 +92,54 @@ std::array<double, 9> covariance_of(const Normal& normal, std::size_t points, co
   return rows;
 }
 
+struct Optimum {
+  Eigen::Vector3d pose;
+  Normal normal;
+};
+
+// Damped Gauss-Newton within `reach` of `center`.
+Optimum descend(const PreparedState& map, const EndPoints& points, const Eigen::Vector3d& start,
+                const Eigen::Vector3d& center, const Eigen::Vector3d& reach, Residual residual) {
+  constexpr int most_iterations = 12;
+  Optimum at{.pose = start, .normal = linearise(map, points, start, residual)};
+  double damping = 1e-3;
+  for (int i = 0; i < most_iterations; ++i) {
+    Eigen::Matrix3d damped = at.normal.hessian;
+    damped.diagonal() += damping * (at.normal.hessian.diagonal() + Eigen::Vector3d::Constant(1e-9));
+    const Eigen::Vector3d step = damped.ldlt().solve(at.normal.gradient);
+    const Eigen::Vector3d next = (at.pose + step).cwiseMax(center - reach).cwiseMin(center + reach);
+    if (!next.allFinite()) break;
+    const Normal there = linearise(map, points, next, residual);
+    if (there.cost >= at.normal.cost) {
+      damping *= 10.0;
+      if (damping > 1e3) break;
+      continue;
+    }
+    const double gain = at.normal.cost - there.cost;
+    at = {.pose = next, .normal = there};
+    damping = std::max(1e-6, damping * 0.1);
+    if (gain < 1e-6 * at.normal.cost) break;
+  }
+  return at;
+}
+
 }  // namespace
 
 Refined refine(const PreparedState& map, const EndPoints& points, const Lattice& lattice,
                const Pose2& T_map_start) {
-  constexpr int most_iterations = 12;
   constexpr double most_steps = 1.5;
   const Pose2 T_grid_start = inverse(lattice.T_map_grid) * T_map_start;
   const Eigen::Vector3d start(T_grid_start.x_m / lattice.resolution_m,
                               T_grid_start.y_m / lattice.resolution_m, T_grid_start.theta_rad);
   const Eigen::Vector3d reach =
       most_steps * Eigen::Vector3d(lattice.step_cells, lattice.step_cells, lattice.heading_step_rad());
-  Eigen::Vector3d pose = start;
-  Normal at = linearise(map, points, pose);
-  double damping = 1e-3;
-  for (int i = 0; i < most_iterations; ++i) {
-    Eigen::Matrix3d damped = at.hessian;
-    damped.diagonal() += damping * (at.hessian.diagonal() + Eigen::Vector3d::Constant(1e-9));
-    const Eigen::Vector3d step = damped.ldlt().solve(at.gradient);
-    const Eigen::Vector3d next = (pose + step).cwiseMax(start - reach).cwiseMin(start + reach);
-    if (!next.allFinite()) break;
-    const Normal there = linearise(map, points, next);
-    if (there.cost >= at.cost) {
-      damping *= 10.0;
-      if (damping > 1e3) break;
-      continue;
-    }
-    const double gain = at.cost - there.cost;
-    pose = next;
-    at = there;
-    damping = std::max(1e-6, damping * 0.1);
-    if (gain < 1e-6 * at.cost) break;
-  }
-  const Pose2 T_grid_robot{pose[0] * lattice.resolution_m, pose[1] * lattice.resolution_m, pose[2]};
+  const Optimum rough = descend(map, points, start, start, reach, Residual::lack);
+  const Optimum fine = descend(map, points, rough.pose, start, reach, Residual::root);
+  const Pose2 T_grid_robot{fine.pose[0] * lattice.resolution_m, fine.pose[1] * lattice.resolution_m,
+                           fine.pose[2]};
   return {.T_map_robot = lattice.T_map_grid * T_grid_robot,
-          .covariance = covariance_of(at, points.size(), lattice),
-          .share = at.field / static_cast<double>(std::max<std::size_t>(1, points.size()))};
+          .covariance = covariance_of(fine.normal, points.size(), lattice),
+          .share = rough.normal.field / static_cast<double>(std::max<std::size_t>(1, points.size()))};
 }
 
 }  // namespace landfall::internal

@@ -88,6 +88,7 @@ TEST_F(Follow, ScansWithoutEchoesAndPlacesOffTheMapAreLeftAlone) {
 
 TEST_F(Follow, RefusesWhatDoesNotFit) {
   EXPECT_THROW(follow(std::span(&map, 1), scans, {}), Error);
+  EXPECT_THROW(follow({}, scans, results), Error);
   scans[2].T_odom_robot.reset();
   EXPECT_THROW(follow(std::span(&map, 1), scans, results), Error);
   EXPECT_TRUE(follow(std::span(&map, 1), {}, {}).empty());

@@ -23,8 +23,8 @@ std::vector<int> consistent(std::span<const SearchResult> results, std::span<con
 // The results with more hypotheses: where a neighbour's probable ones and odometry place the robot, and none
 // of the scan's own is near, the scan is asked again there, along the log and back. A scan that fits many
 // places then lists the one that its neighbours know. Verdicts stay; what is added comes last.
-// results[i] answers scans[i]. Throws Error{invalid_argument} where the lengths differ or a scan has no
-// T_odom_robot.
+// results[i] answers scans[i]. Throws Error{invalid_argument} where the lengths differ, a scan has no
+// T_odom_robot, or a hypothesis is on a map that is not given.
 std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<const Scan> scans,
                                  std::vector<SearchResult> results, const SearchOptions& search_options = {},
                                  const ConsistentOptions& options = {});
