@@ -82,9 +82,7 @@ std::vector<Pose2> align(std::span<const Scan> scans, std::size_t reference, con
                [&](std::size_t k) { matches[k] = match_step(*views[k], *views[k + 1], steps[k]); });
 
   const ScanWindow window{.scans = views, .steps = steps, .reference = reference};
-  const Chosen chosen = choose_chain(window, matches);
-  const ScanWindow proved{.scans = views, .steps = chosen.steps, .reference = reference};
-  return weigh_odometry(window, refine_jointly(proved, chosen.T_reference_robot));
+  return weigh_odometry(window, refine_jointly(window, choose_chain(window, matches)));
 }
 
 }  // namespace landfall

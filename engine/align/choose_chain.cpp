@@ -23,23 +23,6 @@ double log_density(double squared, std::size_t dimensions) {
   return -0.5 * (1.0 + static_cast<double>(dimensions)) * std::log1p(squared);
 }
 
-// The factor of odometry's sigmas that makes such deviations likely; never more than stated.
-double likely_factor(double squared, std::size_t dimensions) {
-  return std::min(1.0, std::sqrt((1.0 + squared) / (1.0 + static_cast<double>(dimensions))));
-}
-
-std::vector<OdometryStep> as_good_as_proved(std::span<const OdometryStep> steps,
-                                            const SquaredDeviation& off) {
-  const double translation = likely_factor(off.translation, 2 * steps.size());
-  const double rotation = likely_factor(off.rotation, steps.size());
-  std::vector<OdometryStep> better(steps.begin(), steps.end());
-  for (OdometryStep& step : better) {
-    step.sigma.translation_m *= translation;
-    step.sigma.rotation_rad *= rotation;
-  }
-  return better;
-}
-
 Chain extended(const Chain& chain, const StepMatch& match, const ScanWindow& window) {
   const std::size_t last = chain.T_first_robot.size() - 1;
   const ScanView& after = *window.scans[last + 1];
@@ -62,7 +45,7 @@ Chain extended(const Chain& chain, const StepMatch& match, const ScanWindow& win
 
 }  // namespace
 
-Chosen choose_chain(const ScanWindow& window, std::span<const std::vector<StepMatch>> matches) {
+std::vector<Pose2> choose_chain(const ScanWindow& window, std::span<const std::vector<StepMatch>> matches) {
   std::vector<Chain> beam(1);
   beam[0].T_first_robot.emplace_back();
   for (std::size_t k = 0; k < window.steps.size(); ++k) {
@@ -77,13 +60,11 @@ Chosen choose_chain(const ScanWindow& window, std::span<const std::vector<StepMa
     if (longer.size() > beam_width) longer.resize(beam_width);
     beam = std::move(longer);
   }
-  Chosen chosen{.T_reference_robot = std::move(beam[0].T_first_robot),
-                .steps = as_good_as_proved(window.steps, beam[0].off)};
-  std::vector<Pose2>& poses = chosen.T_reference_robot;
+  std::vector<Pose2> poses = std::move(beam[0].T_first_robot);
   const Pose2 T_reference_first = inverse(poses[window.reference]);
   for (Pose2& pose : poses) pose = T_reference_first * pose;
   poses[window.reference] = Pose2{};
-  return chosen;
+  return poses;
 }
 
 }  // namespace landfall::internal

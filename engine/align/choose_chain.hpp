@@ -9,16 +9,12 @@
 
 namespace landfall::internal {
 
-struct Chosen {
-  std::vector<Pose2> T_reference_robot;
-  std::vector<OdometryStep> steps;  // the window's, with sigmas as good as they prove
-};
-
-// matches[k] are those of window.steps[k]; where there are none, odometry's step is taken.
+// T_reference_robot of every scan. matches[k] are those of window.steps[k]; where there are none, odometry's
+// step is taken.
 //
 // A scan must also fit the one before its neighbour. How good odometry is, is not known: its noise is the
 // stated one times a factor common to all steps of the window, so that its deviations have a multivariate
 // Cauchy density; where it agrees with most matches, it decides the others.
-Chosen choose_chain(const ScanWindow& window, std::span<const std::vector<StepMatch>> matches);
+std::vector<Pose2> choose_chain(const ScanWindow& window, std::span<const std::vector<StepMatch>> matches);
 
 }  // namespace landfall::internal

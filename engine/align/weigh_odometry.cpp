@@ -11,9 +11,9 @@ namespace landfall::internal {
 namespace {
 
 // A match's covariance is wider than its residuals say by this much, and never below this floor.
-constexpr double residual_widening = 1.0;
-constexpr double floor_m = 0.005;
-constexpr double floor_rad = 0.05 * std::numbers::pi / 180.0;
+constexpr double residual_widening = 5.0;
+constexpr double floor_m = 0.03;
+constexpr double floor_rad = 0.3 * std::numbers::pi / 180.0;
 // Of a direction that no match holds: sigmas of 30 m and 30 rad.
 constexpr double least_information = 1e-3;
 
@@ -32,7 +32,7 @@ std::vector<Step> steps_of(const ScanWindow& window, const RefinedWindow& matche
   Eigen::MatrixXd information = matched.information;
   information.diagonal().array() += least_information;
   hold_scan(window.reference, information);
-  Eigen::MatrixXd covariance = information.inverse();
+  Eigen::MatrixXd covariance = residual_widening * information.inverse();
   const auto at = 3 * static_cast<Eigen::Index>(window.reference);
   covariance.block<3, 3>(at, at).setZero();
   std::vector<Step> steps;
