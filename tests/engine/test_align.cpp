@@ -89,8 +89,7 @@ TEST_F(Align, AlongACorridorOdometryDecides) {
   const PreparedMap long_walls(corridor);
   const auto near_sighted = std::make_shared<const Sensor>(
       make_fan({.beams = 181, .first_rad = -90.0 * degree, .step_rad = degree, .range_max_m = 8.0}));
-  std::vector<Pose2> truth;
-  for (int i = 0; i < 4; ++i) truth.push_back({28.0 + 0.8 * i, 2.0, 0.0});
+  const std::vector<Pose2> truth{{28.0, 2.0, 0.0}, {28.8, 2.0, 0.0}, {29.6, 2.0, 0.0}, {30.4, 2.0, 0.0}};
   std::vector<Scan> looks = simulate(long_walls, near_sighted, truth, {.noise = false});
   for (std::size_t i = 0; i < looks.size(); ++i)
     looks[i].T_odom_robot = Pose2{0.8 * static_cast<double>(i), 0.0, 0.05 * static_cast<double>(i)};
