@@ -190,12 +190,13 @@ def _headline(result: SearchResult, best: Hypothesis | None, maps: Sequence[Prep
 
 
 def _draw_verdicts(axes: Axes, answers: Answers, map_index: int) -> None:
-    """Dots with heading ticks, the sure ones drawn first, and their order as a thin line."""
-    path = [
-        (pose.x_m, pose.y_m) if pose is not None and index == map_index else (math.nan, math.nan)
-        for pose, index in zip(answers.poses, answers.map_indices, strict=True)
-    ]
-    axes.plot(*np.array(path).reshape(-1, 2).T, color="#5b6770", linewidth=0.6, alpha=0.6, zorder=2)
+    """Dots with heading ticks, the sure ones drawn first; a thin line where odometry ties them together."""
+    if answers.tied:
+        path = [
+            (pose.x_m, pose.y_m) if pose is not None and index == map_index else (math.nan, math.nan)
+            for pose, index in zip(answers.poses, answers.map_indices, strict=True)
+        ]
+        axes.plot(*np.array(path).reshape(-1, 2).T, color="#5b6770", linewidth=0.6, alpha=0.6, zorder=2)
     tick_m = 0.4 * _arrow_length_m(axes)
     for verdict, color in VERDICT_COLORS.items():
         poses = [

@@ -81,6 +81,7 @@ class Answers:
     verdicts: list[str] = field(default_factory=list)
     map_indices: list[int] = field(default_factory=list)
     choices: list[int] = field(default_factory=list)  # of the hypotheses, -1: none
+    tied: bool = False  # chosen by odometry over all queries
     kept: dict[int, SearchResult] = field(default_factory=dict)  # by position
 
     def add(self, query: Query, result: SearchResult, keep: bool) -> None:
@@ -147,6 +148,7 @@ def tie_together(answers: Answers, log: Sequence[Scan], question: Question) -> N
     results = follow(question.maps, scans, kept, question.options)
     answers.kept = dict(enumerate(results))
     answers.choose(consistent(results, odometry(scans)))
+    answers.tied = True
 
 
 def _next_size(size: int, took_s: float) -> int:
