@@ -19,8 +19,6 @@ std::size_t scattering_stride(std::size_t count) {
 }  // namespace
 
 EndPoints make_end_points(const Scan& scan, double resolution_m) {
-  // Farther than any map is wide: such a point scores nothing anywhere.
-  constexpr double farthest_cells = 1 << 20;
   EndPoints in_order;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const Beam& beam = scan.sensor->beams[i];

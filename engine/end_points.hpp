@@ -9,6 +9,9 @@
 
 namespace landfall::internal {
 
+// Farther than any map is wide: such a point scores nothing anywhere, and is left out.
+inline constexpr double farthest_cells = 1 << 20;
+
 // In the robot's frame. The order is shuffled (the same way for equal numbers), so that any first few
 // stand for all.
 struct EndPoints {

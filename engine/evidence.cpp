@@ -6,6 +6,9 @@
 namespace landfall::internal {
 namespace {
 
+constexpr double power = 6.5;  // times the fourth root: 24 for 180 echoes
+constexpr double least_misfit = 0.05;
+
 double fourth_root(std::size_t points) {
   return std::pow(static_cast<double>(points), 0.25);
 }
@@ -13,9 +16,11 @@ double fourth_root(std::size_t points) {
 }  // namespace
 
 double log_evidence(double share, std::size_t points) {
-  constexpr double power = 6.5;  // times the fourth root: 24 for 180 echoes
-  constexpr double least_misfit = 0.05;
   return -power * fourth_root(points) * std::log(least_misfit + std::max(0.0, 1.0 - share));
+}
+
+double evidence_slope(double share, std::size_t points) {
+  return power * fourth_root(points) / (least_misfit + std::max(0.0, 1.0 - share));
 }
 
 double rival_share(std::size_t points) {

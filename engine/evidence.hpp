@@ -15,6 +15,8 @@ namespace landfall::internal {
 
 // Log likelihood, but for a constant.
 double log_evidence(double share, std::size_t points);
+// Its derivative by the share.
+double evidence_slope(double share, std::size_t points);
 // What ray casting adds: the share that a beam seen through a wall costs, and one blocked earns back.
 inline constexpr double ray_share = 0.1;
 

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <numeric>
 
 #include "engine/evidence.hpp"
 #include "engine/rank.hpp"
 #include "engine/sequence_model.hpp"
 #include "landfall/consistent.hpp"
-#include "landfall/error.hpp"
 
 namespace landfall {
 namespace {
@@ -143,20 +142,9 @@ class Follower {
 std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<const Scan> scans,
                                  std::vector<SearchResult> results, const SearchOptions& search_options,
                                  const ConsistentOptions& options) {
-  if (results.size() != scans.size())
-    throw Error(ErrorCode::invalid_argument, "follow: " + std::to_string(results.size()) + " results and " +
-                                                 std::to_string(scans.size()) + " scans, expected as many");
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (!scans[i].T_odom_robot)
-      throw Error(ErrorCode::invalid_argument, "follow: scan " + std::to_string(i) + " has no T_odom_robot");
-    for (const Hypothesis& one : results[i].hypotheses)
-      if (one.map_index < 0 || static_cast<std::size_t>(one.map_index) >= maps.size())
-        throw Error(ErrorCode::invalid_argument, "follow: result " + std::to_string(i) + " is on map " +
-                                                     std::to_string(one.map_index) + " of " +
-                                                     std::to_string(maps.size()));
-    order.push_back(i);
-  }
+  check_sequence("follow", maps, scans, results);
+  std::vector<std::size_t> order(scans.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   Follower follower(maps, scans, results, search_options, options);
   follower.pass(order);
   std::reverse(order.begin(), order.end());

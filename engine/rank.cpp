@@ -65,6 +65,7 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
                              .share = share,
                              .map_index = 0,
                              .verification = {},
+                             .T_map_part = {},
                              .hypothesis = {}});
     } else {
       found.log_rest = log_add(found.log_rest, log_prior + log_evidence(share, points));

@@ -19,7 +19,8 @@ struct Mode {
   double share = 0.0;  // of the best imaginable score, at the refined pose
   int map_index = 0;
   Verification verification;
-  Hypothesis hypothesis;  // filled in by refine and verify
+  std::vector<Pose2> T_map_part;  // of a composite whose scans were settled
+  Hypothesis hypothesis;          // filled in by refine and verify
 };
 
 // What one map has to say of one scan.

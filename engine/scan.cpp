@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string>
 
 #include "landfall/error.hpp"
@@ -18,6 +19,27 @@ void validate_pose(const std::optional<Pose2>& pose, const char* field) {
   if (!pose || is_finite(*pose)) return;
   fail(std::string("scan: ") + field + " is (" + std::to_string(pose->x_m) + ", " +
        std::to_string(pose->y_m) + ", " + std::to_string(pose->theta_rad) + "), expected finite numbers");
+}
+
+void check_noise(const RelativePoseNoise& noise) {
+  const auto check = [](const char* field, double value) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+      fail(std::string("noise of relative poses: ") + field + " is " + std::to_string(value) +
+           ", expected a number >= 0");
+  };
+  check("translation_m", noise.translation_m);
+  check("rotation_rad", noise.rotation_rad);
+}
+
+void validate_parts(const ScanParts& parts, std::size_t beams) {
+  const std::size_t sum = std::accumulate(parts.beams.begin(), parts.beams.end(), std::size_t{0});
+  if (sum != beams)
+    fail("scan: its parts have " + std::to_string(sum) + " beams, expected " + std::to_string(beams));
+  if (parts.T_reference_robot.size() != parts.beams.size() || parts.reference >= parts.beams.size())
+    fail("scan: " + std::to_string(parts.T_reference_robot.size()) + " poses and reference " +
+         std::to_string(parts.reference) + " for " + std::to_string(parts.beams.size()) + " parts");
+  for (const Pose2& pose : parts.T_reference_robot) validate_pose(pose, "parts.T_reference_robot");
+  check_noise(parts.noise);
 }
 
 int count_readings(const Scan& scan, bool echoes_alone) {
@@ -71,10 +93,14 @@ void validate(const Scan& scan) {
     fail("scan: stamp_s is " + std::to_string(scan.stamp_s) + ", expected a finite number");
   validate_pose(scan.T_odom_robot, "T_odom_robot");
   validate_pose(scan.T_map_robot, "T_map_robot");
+  if (scan.parts) validate_parts(*scan.parts, scan.ranges_m.size());
 }
 
-Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference) {
+Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference,
+           const RelativePoseNoise& noise) {
   check_mergeable(scans, T_common_robot, reference);
+  check_noise(noise);
+  ScanParts parts{.reference = reference, .noise = noise};
   Sensor sensor{.name = "composite", .beams = {}, .range_noise_m = 0.0, .range_noise_relative = 0.0};
   std::vector<float> ranges_m;
   const Pose2 T_reference_common = inverse(T_common_robot[reference]);
@@ -87,14 +113,18 @@ Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, s
       beam.T_robot_beam = T_reference_robot * beam.T_robot_beam;
       sensor.beams.push_back(beam);
     }
+    parts.beams.push_back(part.beams.size());
+    parts.T_reference_robot.push_back(T_reference_robot);
     ranges_m.insert(ranges_m.end(), scans[i].ranges_m.begin(), scans[i].ranges_m.end());
   }
   validate(sensor);
+  const bool may_be_off = noise.translation_m > 0.0 || noise.rotation_rad > 0.0;
   return {.sensor = std::make_shared<const Sensor>(std::move(sensor)),
           .ranges_m = std::move(ranges_m),
           .stamp_s = scans[reference].stamp_s,
           .T_odom_robot = scans[reference].T_odom_robot,
-          .T_map_robot = scans[reference].T_map_robot};
+          .T_map_robot = scans[reference].T_map_robot,
+          .parts = may_be_off && scans.size() > 1 ? std::optional(std::move(parts)) : std::nullopt};
 }
 
 Scan merge(std::span<const Scan> scans) {

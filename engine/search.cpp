@@ -10,6 +10,7 @@
 #include "engine/parallel.hpp"
 #include "engine/rank.hpp"
 #include "engine/refine.hpp"
+#include "engine/settle.hpp"
 #include "engine/verify.hpp"
 #include "kernels/isa.hpp"
 #include "landfall/error.hpp"
@@ -69,19 +70,27 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
     hypothesis.T_map_robot = refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
     mode.share = refined.share;
+    if (!query.scan.parts) continue;
+    mode.T_map_part = settle(query.map, query.scan, hypothesis.T_map_robot);
+    hypothesis.T_map_robot = mode.T_map_part[query.scan.parts->reference];
   }
 }
 
 void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.verify_ms);
-  std::vector<Pose2> T_map_robot;
-  for (const Mode& mode : found.modes) T_map_robot.push_back(mode.hypothesis.T_map_robot);
-  const std::vector<Verification> verified = verify(query.map, query.scan, T_map_robot);
-  for (std::size_t i = 0; i < verified.size(); ++i) {
-    found.modes[i].verification = verified[i];
-    found.modes[i].hypothesis.explained = verified[i].explained;
+  if (query.scan.parts) {
+    for (Mode& mode : found.modes)
+      mode.verification =
+          verify(query.map, remount(query.scan, mode.T_map_part), std::span(&mode.hypothesis.T_map_robot, 1))
+              .front();
+  } else {
+    std::vector<Pose2> T_map_robot;
+    for (const Mode& mode : found.modes) T_map_robot.push_back(mode.hypothesis.T_map_robot);
+    const std::vector<Verification> verified = verify(query.map, query.scan, T_map_robot);
+    for (std::size_t i = 0; i < verified.size(); ++i) found.modes[i].verification = verified[i];
   }
-  result.counts.rays_cast += static_cast<std::int64_t>(verified.size()) * result.beams_valid;
+  for (Mode& mode : found.modes) mode.hypothesis.explained = mode.verification.explained;
+  result.counts.rays_cast += static_cast<std::int64_t>(found.modes.size()) * result.beams_valid;
 }
 
 Modes examine(const Query& query, const Method& method, SearchResult& result) {

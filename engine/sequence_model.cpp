@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "landfall/error.hpp"
+
 namespace landfall::internal {
 namespace {
 
@@ -34,6 +36,23 @@ OdometrySigma transition_sigma(const OdometryNoise& noise, const Pose2& T_before
   const OdometrySigma sigma = odometry_sigma(noise, T_before_after);
   return {.translation_m = std::hypot(sigma.translation_m, pose_sigma_m),
           .rotation_rad = std::hypot(sigma.rotation_rad, pose_sigma_rad)};
+}
+
+void check_sequence(const std::string& function, std::span<const PreparedMap> maps,
+                    std::span<const Scan> scans, std::span<const SearchResult> results) {
+  const auto fail = [&](const std::string& message) {
+    throw Error(ErrorCode::invalid_argument, function + ": " + message);
+  };
+  if (results.size() != scans.size())
+    fail(std::to_string(results.size()) + " results and " + std::to_string(scans.size()) +
+         " scans, expected as many");
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!scans[i].T_odom_robot) fail("scan " + std::to_string(i) + " has no T_odom_robot");
+    for (const Hypothesis& one : results[i].hypotheses)
+      if (one.map_index < 0 || static_cast<std::size_t>(one.map_index) >= maps.size())
+        fail("result " + std::to_string(i) + " is on map " + std::to_string(one.map_index) + " of " +
+             std::to_string(maps.size()));
+  }
 }
 
 SequenceModel::SequenceModel(std::span<const SearchResult> results, const ConsistentOptions& options)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/odometry.hpp"
@@ -18,6 +19,11 @@ class SequenceModel {
   // Odometry's Gaussian, or a jump to anywhere; on another map always a jump.
   [[nodiscard]] double log_transition(const Hypothesis& before, const Hypothesis& after,
                                       const Pose2& T_before_after) const;
+  // Odometry does not explain the second after the first.
+  [[nodiscard]] bool is_jump(const Hypothesis& before, const Hypothesis& after,
+                             const Pose2& T_before_after) const {
+    return log_transition(before, after, T_before_after) <= log_jump_;
+  }
   // One step of Viterbi: log posteriors of the hypotheses of `after` from those of `before`.
   struct Extended {
     std::vector<double> log_posterior;
@@ -30,6 +36,11 @@ class SequenceModel {
   OdometryNoise noise_;
   double log_jump_;
 };
+
+// Throws Error{invalid_argument}, under the function's name: lengths that differ, a scan without odometry, a
+// hypothesis on a map that is not given.
+void check_sequence(const std::string& function, std::span<const PreparedMap> maps,
+                    std::span<const Scan> scans, std::span<const SearchResult> results);
 
 // A hypothesis's own uncertainty and odometry's together.
 OdometrySigma transition_sigma(const OdometryNoise& noise, const Pose2& T_before_after);

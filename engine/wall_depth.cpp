@@ -25,7 +25,8 @@ bool ends_within_wall(const GridMap& grid, const Pose2& T_map_beam, double from_
   const int steps = static_cast<int>(std::floor((to_m - from_m) / step_m));
   for (int i = 1; i <= steps; ++i)
     if (grid.at(cell_at(from_m + i * step_m)) != Occupancy::occupied) return false;
-  return has_open_cell_near(grid, cell_at(to_m));
+  const CellIndex end = cell_at(to_m);
+  return grid.at(end) == Occupancy::occupied && has_open_cell_near(grid, end);
 }
 
 }  // namespace landfall::internal

@@ -156,19 +156,33 @@ void bind_scan(nb::module_& module) {
                " beams, sensor='" + scan.sensor->name + "')";
       });
 
+  nb::class_<RelativePoseNoise>(module, "RelativePoseNoise",
+                                "How far relative poses may be off: one sigma between consecutive scans.")
+      .def(
+          "__init__",
+          [](RelativePoseNoise* self, double translation_m, double rotation_rad) {
+            new (self) RelativePoseNoise{.translation_m = translation_m, .rotation_rad = rotation_rad};
+          },
+          nb::kw_only(), "translation_m"_a = 0.0, "rotation_rad"_a = 0.0)
+      .def_ro("translation_m", &RelativePoseNoise::translation_m)
+      .def_ro("rotation_rad", &RelativePoseNoise::rotation_rad);
+  module.attr("ALIGNED_NOISE") = aligned_noise;
+
   module.def(
       "merge",
       [](const std::vector<Scan>& scans, const std::optional<PosesArgument>& T_common_robot,
-         std::optional<std::size_t> reference) {
+         std::optional<std::size_t> reference, const RelativePoseNoise& noise) {
         if (!T_common_robot) return merge(scans);
         const std::vector<Pose2> poses = poses_from(*T_common_robot, "merge");
         const nb::gil_scoped_release released;
-        return merge(scans, poses, reference.value_or(scans.empty() ? 0 : scans.size() - 1));
+        return merge(scans, poses, reference.value_or(scans.empty() ? 0 : scans.size() - 1), noise);
       },
-      "scans"_a, "T_common_robot"_a = nb::none(), "reference"_a = nb::none(),
+      "scans"_a, "T_common_robot"_a = nb::none(), "reference"_a = nb::none(), "noise"_a = RelativePoseNoise{},
       "One scan with the beams of all, seen from scan `reference` (the last by default) and under its "
       "stamp.\n"
       "T_common_robot: where each was taken, in any common frame; without it, the scans' own odometry.\n"
+      "noise: how far these may be off (ALIGNED_NOISE for those of align): search then has every scan where\n"
+      "it fits the map best within that. Zero: as given.\n"
       "Raises InvalidArgument.");
 }
 

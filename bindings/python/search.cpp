@@ -77,6 +77,15 @@ void bind_search(nb::module_& module) {
       "InvalidArgument where the lengths differ or a scan has no T_odom_robot.");
 
   module.def(
+      "polish",
+      [](const std::vector<PreparedMap>& maps, const std::vector<Scan>& scans,
+         std::vector<SearchResult> results, const std::vector<int>& choice,
+         int threads) { return polish(maps, scans, std::move(results), choice, {}, threads); },
+      "maps"_a, "scans"_a, "results"_a, "choice"_a, "threads"_a = 0, nb::call_guard<nb::gil_scoped_release>(),
+      "The results with the hypotheses that consistent() chose moved to where each scan and its neighbours,\n"
+      "aligned, fit the map best together. Composite scans stay. Raises InvalidArgument.");
+
+  module.def(
       "methods",
       [] {
         std::vector<std::tuple<std::string, std::string, std::string>> rows;

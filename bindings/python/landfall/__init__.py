@@ -13,6 +13,7 @@ of frame b into frame a. Errors are landfall.Error and also the built-in excepti
 from importlib.metadata import PackageNotFoundError, version
 
 from landfall._landfall import (
+    ALIGNED_NOISE,
     Anywhere,
     Beacons,
     Beam,
@@ -27,6 +28,7 @@ from landfall._landfall import (
     PosePrior,
     PreparedMap,
     Region,
+    RelativePoseNoise,
     Scan,
     SearchCounts,
     SearchOptions,
@@ -50,6 +52,7 @@ from landfall._landfall import (
     map_from_known_poses,
     merge,
     methods,
+    polish,
     save_grid_map,
     save_log,
     save_sensor,
@@ -79,6 +82,7 @@ except PackageNotFoundError:  # used from a build folder
     __version__ = "0"
 
 __all__ = [
+    "ALIGNED_NOISE",
     "Anywhere",
     "Beacons",
     "Beam",
@@ -98,6 +102,7 @@ __all__ = [
     "PosePrior",
     "PreparedMap",
     "Region",
+    "RelativePoseNoise",
     "Scan",
     "SearchCounts",
     "SearchOptions",
@@ -126,6 +131,7 @@ __all__ = [
     "map_from_known_poses",
     "merge",
     "methods",
+    "polish",
     "save_grid_map",
     "save_log",
     "save_sensor",

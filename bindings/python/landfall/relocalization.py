@@ -17,6 +17,7 @@ from landfall._landfall import (
     SearchResult,
     consistent,
     follow,
+    polish,
     search_batch,
 )
 from landfall.interrupts import CleanStop
@@ -141,13 +142,16 @@ def relocalize(
 def tie_together(answers: Answers, log: Sequence[Scan], question: Question) -> None:
     """Puts the most probable sequence of hypotheses in place of each query's first; every result was kept.
 
-    Where odometry leads to a place which a query did not list, the query is asked again there.
+    Where odometry leads to a place which a query did not list, the query is asked again there. Scans asked
+    alone then end up where they and their neighbours fit the map best together.
     """
     scans = compose(log, answers.queries, question.composition)
     kept = [answers.kept[position] for position in range(len(answers.queries))]
     results = follow(question.maps, scans, kept, question.options)
+    choices = consistent(results, odometry(scans))
+    results = polish(question.maps, scans, results, choices, question.options.threads)
     answers.kept = dict(enumerate(results))
-    answers.choose(consistent(results, odometry(scans)))
+    answers.choose(choices)
     answers.tied = True
 
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from landfall._landfall import Pose2, Scan, align, merge, translation_distance
+from landfall._landfall import ALIGNED_NOISE, Pose2, Scan, align, merge, translation_distance
 from landfall.errors import InvalidArgument
 
 
@@ -37,7 +37,7 @@ class Query:
         if not composition.aligned:
             return merge(members)
         reference = len(members) - 1
-        return merge(members, align(members, reference, threads=1), reference)
+        return merge(members, align(members, reference, threads=1), reference, ALIGNED_NOISE)
 
 
 def compose(log: Sequence[Scan], queries: Sequence[Query], composition: Composition) -> list[Scan]:

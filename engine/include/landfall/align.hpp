@@ -34,4 +34,7 @@ struct AlignOptions {
 std::vector<Pose2> align(std::span<const Scan> scans, std::size_t reference,
                          const AlignOptions& options = {});
 
+// How good align()'s relative poses are, most of the time: for merge().
+inline constexpr RelativePoseNoise aligned_noise{.translation_m = 0.03, .rotation_rad = 0.008};
+
 }  // namespace landfall

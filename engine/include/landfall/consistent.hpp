@@ -29,4 +29,12 @@ std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<co
                                  std::vector<SearchResult> results, const SearchOptions& search_options = {},
                                  const ConsistentOptions& options = {});
 
+// The results with their chosen hypotheses moved to where each scan and up to two neighbours on either side,
+// aligned, fit the map best together: a scan that says little along a corridor stands where its neighbours'
+// do. choice as from consistent(). Composite scans, and those that a jump parts from all others, stay.
+// Throws Error{invalid_argument} where follow() does, and for choices of another length or out of range.
+std::vector<SearchResult> polish(std::span<const PreparedMap> maps, std::span<const Scan> scans,
+                                 std::vector<SearchResult> results, std::span<const int> choice,
+                                 const ConsistentOptions& options = {}, int threads = 0);
+
 }  // namespace landfall

@@ -10,6 +10,20 @@
 
 namespace landfall {
 
+// How far a composite's relative poses may be off: one sigma between consecutive scans.
+struct RelativePoseNoise {
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+};
+
+// The scans of a composite whose relative poses may be off: its beams are theirs, one scan after the other.
+struct ScanParts {
+  std::vector<std::size_t> beams{};        // how many of each
+  std::vector<Pose2> T_reference_robot{};  // where each was taken, in the composite's robot frame
+  std::size_t reference = 0;               // the scan whose robot frame that is
+  RelativePoseNoise noise{};
+};
+
 struct Scan {
   std::shared_ptr<const Sensor> sensor{};
   std::vector<float> ranges_m{};  // one per beam; NaN: invalid; >= the beam's range_max_m: nothing hit
@@ -17,6 +31,7 @@ struct Scan {
   std::optional<Pose2> T_odom_robot{};  // odometry at that time
   std::optional<Pose2> T_map_robot{};   // a pose recorded in the log (corrected log, localizer): never
                                         // used by search; the truth for mapping from known poses
+  std::optional<ScanParts> parts{};     // search fits each of them to the map; none: beams are as they are
 };
 
 enum class Reading { invalid, echo, no_echo };
@@ -27,13 +42,17 @@ int count_valid(const Scan& scan);
 int count_echoes(const Scan& scan);
 
 // Throws Error{invalid_argument}: no sensor, a sensor that validate() refuses, a number of ranges
-// other than the sensor's beams, a stamp or pose that is not finite.
+// other than the sensor's beams, a stamp or pose that is not finite, parts with other beams or poses.
 void validate(const Scan& scan);
 
 // One scan with the beams of all of them, seen from scan `reference`'s robot frame and under its
 // stamp. T_common_robot[i] is where scan i was taken, in any frame common to all (such as odom).
-// Noise: the largest of the sensors'. Throws Error{invalid_argument} where sizes differ or are zero.
-Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference);
+// Sensor noise: the largest of the sensors'. Relative poses are taken as given, unless `noise` says how far
+// they may be off: then each hypothesis of search has every scan where it fits the map best within that.
+// Throws Error{invalid_argument} where sizes differ or are zero, and for noise that is negative or not
+// finite.
+Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference,
+           const RelativePoseNoise& noise = {});
 // The same from the scans' own odometry, seen from the last scan. Throws where one has none.
 Scan merge(std::span<const Scan> scans);
 
