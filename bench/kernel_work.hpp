@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -47,19 +48,23 @@ struct Planes {
   static constexpr int all_points = 60;
 
   kernels::BoundPlanes planes;
-  std::vector<std::uint8_t> levels;
-  Integers plane, col, row, list_end, tile_col, tile_row;
+  std::vector<std::uint32_t> column_of_4;
+  Integers plane, col, row, list_begin, list_end, tile_col, tile_row;
 
-  Planes(int count, int cols, int rows, int tiles)
-      : planes{.data = nullptr,
+  Planes(int count, int cols, int rows, int runs)
+      : planes{.column_of_4 = nullptr,
                .stride = cols,
-               .last_col = cols - kernels::tile_cols,
+               .last_col = cols - kernels::run_cols,
                .last_row = rows - kernels::tile_rows} {
     testing::RandomField random(1);
-    const int whole_vectors = (count * cols * rows + 511) / 512 * 512;  // as sum_bytes wants it
-    levels = random.bytes(static_cast<std::size_t>(whole_vectors), kernels::bound_levels);
-    planes.data = levels.data();
+    const int whole_vectors = (count * cols * rows + 127) / 128 * 128;  // as sum_bytes wants it
+    const std::vector<std::uint8_t> levels =
+        random.bytes(4 * static_cast<std::size_t>(whole_vectors), kernels::bound_levels);
+    column_of_4.resize(static_cast<std::size_t>(whole_vectors));
+    std::memcpy(column_of_4.data(), levels.data(), levels.size());
+    planes.column_of_4 = column_of_4.data();
     for (const int points : {heavy_points, all_points}) {
+      list_begin.push_back(static_cast<std::int32_t>(plane.size()));
       for (int i = 0; i < points; ++i) {
         plane.push_back(random.between(0, count - 1) * cols * rows);
         col.push_back(random.between(0, planes.last_col));
@@ -67,33 +72,41 @@ struct Planes {
       }
       list_end.push_back(static_cast<std::int32_t>(plane.size()));
     }
-    tile_col = random.integers(static_cast<std::size_t>(tiles), -cols / 2, cols / 2);
-    tile_row = random.integers(static_cast<std::size_t>(tiles), -rows / 2, rows / 2);
+    for (Integers* padded : {&plane, &col, &row}) padded->resize(padded->size() + kernels::point_padding);
+    tile_col = random.integers(static_cast<std::size_t>(runs), -cols / 2, cols / 2);
+    tile_row = random.integers(static_cast<std::size_t>(runs), -rows / 2, rows / 2);
   }
   [[nodiscard]] kernels::BoundPoints points() const {
     return {.plane = plane.data(),
             .col = col.data(),
             .row = row.data(),
+            .list_begin = list_begin.data(),
             .list_end = list_end.data(),
             .lists = static_cast<std::int32_t>(list_end.size())};
   }
 };
 
 inline Work bound_tile_work(const std::string& cache, int count, int cols, int rows) {
-  constexpr int tiles = 64;
-  const auto data = std::make_shared<const Planes>(count, cols, rows, tiles);
-  return {.name = "bound_tile/" + cache,
-          .unit = "bytes/s",
-          .units_per_run = 1.0 * tiles * static_cast<double>(data->plane.size()) * kernels::tile_blocks,
-          .run =
-              [data, scratch = Integers(data->plane.size())](bool twin, Answers& answers) mutable {
-                answers.sums.resize(tiles * kernels::tile_blocks);
-                const auto bound = twin ? kernels::scalar::bound_tile : kernels::bound_tile;
-                for (std::size_t t = 0; t < tiles; ++t)
-                  bound(data->planes, data->points(), data->tile_col[t], data->tile_row[t], 0, scratch.data(),
-                        answers.sums.data() + t * kernels::tile_blocks);
-              },
-          .table = data->levels};
+  constexpr std::size_t runs = 64;
+  constexpr std::size_t run_blocks = kernels::most_tiles * kernels::tile_blocks;
+  const auto data = std::make_shared<const Planes>(count, cols, rows, static_cast<int>(runs));
+  return {
+      .name = "bound_tile/" + cache,
+      .unit = "bytes/s",
+      .units_per_run =
+          1.0 * runs * static_cast<double>(data->plane.size() - kernels::point_padding) * run_blocks,
+      .run =
+          [data, scratch = Integers(data->plane.size()),
+           allowed = std::vector<std::uint16_t>(run_blocks, 0xFFFF)](bool twin, Answers& answers) mutable {
+            answers.sums.resize(runs * (run_blocks + kernels::most_tiles));
+            const auto bound = twin ? kernels::scalar::bound_tiles : kernels::bound_tiles;
+            std::uint16_t* sums = answers.sums.data();
+            for (std::size_t r = 0; r < runs; ++r, sums += run_blocks + kernels::most_tiles)
+              bound(data->planes, data->points(), data->tile_col[r], data->tile_row[r], kernels::most_tiles,
+                    0, allowed.data(), scratch.data(), sums, sums + run_blocks);
+          },
+      .table = {reinterpret_cast<const std::uint8_t*>(data->column_of_4.data()),
+                data->column_of_4.size() * sizeof(std::uint32_t)}};
 }
 
 // A scan of 180 beams over half a turn, on the lattice of the office, seen at headings all around.
@@ -208,9 +221,9 @@ inline Work end_point_cells_work(const SharedScan& scan) {
 inline std::vector<Work> all_work() {
   const auto scan = std::make_shared<const OfficeScan>();
   std::vector<Work> all;
-  all.push_back(bound_tile_work("16KB", 3, 100, 50));
-  all.push_back(bound_tile_work("400KB", 20, 168, 124));
-  all.push_back(bound_tile_work("8MB", 20, 688, 572));
+  all.push_back(bound_tile_work("24KB", 1, 100, 60));
+  all.push_back(bound_tile_work("1.6MB", 20, 220, 100));
+  all.push_back(bound_tile_work("32MB", 20, 740, 535));
   all.push_back(window_indices_work(scan));
   all.push_back(bound_block_work(scan));
   all.push_back(score_block_work(scan));

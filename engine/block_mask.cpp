@@ -5,7 +5,7 @@
 
 namespace landfall::internal {
 
-std::int64_t BlockMask::count() const {
+std::int64_t BlockMask::count_cells() const {
   std::int64_t cells = 0;
   for (const std::uint64_t word : words) cells += std::popcount(word);
   return cells;

@@ -15,6 +15,7 @@ struct BlockMask {
   int cols = 0;
   int rows = 0;
   std::vector<std::uint64_t> words;  // row by row
+  std::int64_t counted = -1;         // see remember_count()
 
   // The cells of block (col, row); none outside the rectangle.
   [[nodiscard]] std::uint64_t at(int col, int row) const {
@@ -34,9 +35,12 @@ struct BlockMask {
             bit_of(cell_col, cell_row)) &
            1U;
   }
-  [[nodiscard]] std::int64_t count() const;
+  [[nodiscard]] std::int64_t count() const { return counted >= 0 ? counted : count_cells(); }
+  // For masks that many will ask: nothing may be inserted afterwards.
+  void remember_count() { counted = count_cells(); }
 
  private:
+  [[nodiscard]] std::int64_t count_cells() const;
   static int bit_of(int cell_col, int cell_row) {
     return (cell_row % kernels::block_cells) * kernels::block_cells + cell_col % kernels::block_cells;
   }

@@ -19,7 +19,9 @@ std::size_t scattering_stride(std::size_t count) {
 }  // namespace
 
 EndPoints make_end_points(const Scan& scan, double resolution_m) {
-  EndPoints in_order;
+  EndPoints points;
+  points.x_cells_by_beam.reserve(scan.ranges_m.size());
+  points.y_cells_by_beam.reserve(scan.ranges_m.size());
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const Beam& beam = scan.sensor->beams[i];
     if (classify(beam, scan.ranges_m[i]) != Reading::echo) continue;
@@ -27,16 +29,17 @@ EndPoints make_end_points(const Scan& scan, double resolution_m) {
     const double x = p_robot.x_m / resolution_m;
     const double y = p_robot.y_m / resolution_m;
     if (std::abs(x) > farthest_cells || std::abs(y) > farthest_cells) continue;
-    in_order.x_cells.push_back(x);
-    in_order.y_cells.push_back(y);
+    points.x_cells_by_beam.push_back(x);
+    points.y_cells_by_beam.push_back(y);
   }
-  const std::size_t count = in_order.size();
-  EndPoints points;
+  const std::size_t count = points.x_cells_by_beam.size();
   if (count == 0) return points;
+  points.x_cells.reserve(count);
+  points.y_cells.reserve(count);
   const std::size_t stride = scattering_stride(count);
   for (std::size_t i = 0, at = 0; i < count; ++i, at = (at + stride) % count) {
-    points.x_cells.push_back(in_order.x_cells[at]);
-    points.y_cells.push_back(in_order.y_cells[at]);
+    points.x_cells.push_back(points.x_cells_by_beam[at]);
+    points.y_cells.push_back(points.y_cells_by_beam[at]);
   }
   return points;
 }

@@ -13,10 +13,12 @@ namespace landfall::internal {
 inline constexpr double farthest_cells = 1 << 20;
 
 // In the robot's frame. The order is shuffled (the same way for equal numbers), so that any first few
-// stand for all.
+// stand for all; the beams' own order, in which neighbours end close to each other, is kept beside it.
 struct EndPoints {
   std::vector<double> x_cells;
   std::vector<double> y_cells;
+  std::vector<double> x_cells_by_beam;
+  std::vector<double> y_cells_by_beam;
 
   [[nodiscard]] std::size_t size() const { return x_cells.size(); }
 };

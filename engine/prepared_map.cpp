@@ -48,6 +48,12 @@ const BoundTable& PreparedState::bound_table() const {
   });
 }
 
+const BoundTable& PreparedState::coarse_bound_table() const {
+  return coarse_bound_table_.get([this] {
+    return make_bound_table(field(), grid_.width_cells, grid_.height_cells, 2 * kernels::block_cells);
+  });
+}
+
 const WallMap& PreparedState::walls() const {
   return plan_ ? *plan_ : walls_.get([this] { return to_walls(grid_); });
 }
@@ -80,6 +86,7 @@ std::shared_ptr<const BlockMask> PreparedState::free_mask(double robot_radius_m,
       cells.insert(col, row);
     }
   }
+  cells.remember_count();
   mask = std::make_shared<const BlockMask>(std::move(cells));
   return mask;
 }
@@ -90,6 +97,7 @@ std::size_t PreparedState::memory_bytes() const {
   if (const auto* field = field_.if_built()) bytes += field->capacity();
   if (const auto* tables = window_tables_.if_built()) bytes += tables->memory_bytes();
   if (const auto* table = bound_table_.if_built()) bytes += table->memory_bytes();
+  if (const auto* table = coarse_bound_table_.if_built()) bytes += table->memory_bytes();
   if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();
@@ -132,6 +140,7 @@ void PreparedMap::prepare() const {
   (void)active_isa();
   (void)state_->window_tables();
   (void)state_->bound_table();
+  (void)state_->coarse_bound_table();
   (void)state_->scene();
   (void)state_->free_mask(0.0, 1);
 }

@@ -48,6 +48,8 @@ class PreparedState {
   [[nodiscard]] const WindowTables& window_tables() const;
   // Blocks of kernels::block_cells.
   [[nodiscard]] const BoundTable& bound_table() const;
+  // Blocks twice as large.
+  [[nodiscard]] const BoundTable& coarse_bound_table() const;
   [[nodiscard]] const WallMap& walls() const;
   // Walls in the map frame, ready for rays.
   [[nodiscard]] const raycast::Scene& scene() const;
@@ -63,6 +65,7 @@ class PreparedState {
   Lazy<std::vector<std::uint8_t>> field_;
   Lazy<WindowTables> window_tables_;
   Lazy<BoundTable> bound_table_;
+  Lazy<BoundTable> coarse_bound_table_;
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
   mutable std::mutex masks_mutex_;

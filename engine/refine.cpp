@@ -38,6 +38,7 @@ struct Optimum {
 Optimum descend(const PreparedState& map, const EndPoints& points, const Eigen::Vector3d& start,
                 const Eigen::Vector3d& center, const Eigen::Vector3d& reach, Residual residual) {
   constexpr int most_iterations = 12;
+  constexpr double least_gain = 1e-4;  // of the cost: well below a millimetre
   Optimum at{.pose = start, .normal = linearise(map, points, start, residual)};
   double damping = 1e-3;
   for (int i = 0; i < most_iterations; ++i) {
@@ -55,7 +56,7 @@ Optimum descend(const PreparedState& map, const EndPoints& points, const Eigen::
     const double gain = at.normal.cost - there.cost;
     at = {.pose = next, .normal = there};
     damping = std::max(1e-6, damping * 0.1);
-    if (gain < 1e-6 * at.normal.cost) break;
+    if (gain < least_gain * at.normal.cost) break;
   }
   return at;
 }

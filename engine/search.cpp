@@ -62,7 +62,8 @@ Proposal propose(const Query& query, const Method& method, SearchResult& result)
 
 void refine_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.refine_ms);
-  for (Mode& mode : found.modes) {
+  parallel_for(found.modes.size(), query.threads, [&](std::size_t i) {
+    Mode& mode = found.modes[i];
     Hypothesis& hypothesis = mode.hypothesis;
     hypothesis.score = mode.best.score;
     hypothesis.T_map_robot_unrefined = query.lattice.T_map_robot(mode.best.pose);
@@ -70,10 +71,10 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
     hypothesis.T_map_robot = refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
     mode.share = refined.share;
-    if (!query.scan.parts) continue;
+    if (!query.scan.parts) return;
     mode.T_map_part = settle(query.map, query.scan, hypothesis.T_map_robot);
     hypothesis.T_map_robot = mode.T_map_part[query.scan.parts->reference];
-  }
+  });
 }
 
 void verify_modes(const Query& query, Modes& found, SearchResult& result) {

@@ -54,50 +54,65 @@ int BoundTable::window_index(int halves) {
 
 BoundTable::BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, int half_rows, int block_cells)
     : block_cells_(block_cells),
-      cols_(divide_up(half_cols, phases) + pad_cols + kernels::tile_cols),
+      cols_(divide_up(half_cols, phases) + pad_cols + kernels::run_cols),
       rows_(divide_up(half_rows, phases) + pad_rows + kernels::tile_rows),
-      plane_bytes_(cols_ * rows_) {
-  data_.resize(static_cast<std::size_t>(plane_bytes_) * window_sizes * phases * phases);
-  // Windows of h halves that begin at half p - margin, p in [0, padded): enough to reach off the map.
+      plane_size_(cols_ * rows_) {
+  column_of_4_.resize(static_cast<std::size_t>(plane_size_) * window_sizes * phases * phases);
+  for (int index = 0; index < window_sizes; ++index) fill_planes(index, halves, half_cols, half_rows);
+}
+
+// Windows of h halves that begin at half p - margin, p in [0, padded): enough to reach off the map.
+void BoundTable::fill_planes(int index, const std::vector<std::uint8_t>& halves, int half_cols,
+                             int half_rows) {
   const int margin = sizes.back();
   const int padded_cols = half_cols + margin;
   const int padded_rows = half_rows + margin;
   const auto width = static_cast<std::size_t>(padded_cols);
-  for (int index = 0; index < window_sizes; ++index) {
-    const int size = window_halves(index);
-    std::vector<std::uint8_t> across(width * static_cast<std::size_t>(half_rows));
-    parallel_for(static_cast<std::size_t>(half_rows), 0, [&](std::size_t r) {
-      const std::uint8_t* in = halves.data() + r * static_cast<std::size_t>(half_cols);
-      for (int p = 0; p < padded_cols; ++p) {
-        const int first = std::max(0, p - margin);
-        const int last = std::min(half_cols, p - margin + size);
-        if (first < last)
-          across[r * width + static_cast<std::size_t>(p)] = *std::max_element(in + first, in + last);
-      }
-    });
-    parallel_for(static_cast<std::size_t>(padded_rows), 0, [&](std::size_t q) {
-      const int row_half = static_cast<int>(q) - margin;
-      std::vector<std::uint8_t> tallest(width);
-      for (int r = std::max(0, row_half); r < std::min(half_rows, row_half + size); ++r)
-        kernels::maximum(tallest.data(), across.data() + static_cast<std::size_t>(r) * width, width,
-                         tallest.data());
-      const int phase_row = row_half & 1;
-      const int row = (row_half - phase_row) / phases + pad_rows;
-      for (int p = 0; p < padded_cols; ++p) {
-        const int col_half = p - margin;
-        const int phase_col = col_half & 1;
-        const int col = (col_half - phase_col) / phases + pad_cols;
-        const std::int64_t at = plane(index, phase_row, phase_col) + std::int64_t{row} * cols_ + col;
-        data_[static_cast<std::size_t>(at)] = to_level(tallest[static_cast<std::size_t>(p)]);
-      }
-    });
-  }
+  const int size = window_halves(index);
+  std::vector<std::uint8_t> across(width * static_cast<std::size_t>(half_rows));
+  parallel_for(static_cast<std::size_t>(half_rows), 0, [&](std::size_t r) {
+    const std::uint8_t* in = halves.data() + r * static_cast<std::size_t>(half_cols);
+    for (int p = 0; p < padded_cols; ++p) {
+      const int first = std::max(0, p - margin);
+      const int last = std::min(half_cols, p - margin + size);
+      if (first < last)
+        across[r * width + static_cast<std::size_t>(p)] = *std::max_element(in + first, in + last);
+    }
+  });
+  const auto plane_cells = static_cast<std::size_t>(plane_size_);
+  std::vector<std::uint8_t> levels(plane_cells * phases * phases);  // of this size: [phase row][phase col]
+  parallel_for(static_cast<std::size_t>(padded_rows), 0, [&](std::size_t q) {
+    const int row_half = static_cast<int>(q) - margin;
+    std::vector<std::uint8_t> tallest(width);
+    for (int r = std::max(0, row_half); r < std::min(half_rows, row_half + size); ++r)
+      kernels::maximum(tallest.data(), across.data() + static_cast<std::size_t>(r) * width, width,
+                       tallest.data());
+    const int phase_row = row_half & 1;
+    const int row = (row_half - phase_row) / phases + pad_rows;
+    for (int p = 0; p < padded_cols; ++p) {
+      const int col_half = p - margin;
+      const int phase_col = col_half & 1;
+      const int col = (col_half - phase_col) / phases + pad_cols;
+      const std::int64_t at = plane(0, phase_row, phase_col) + std::int64_t{row} * cols_ + col;
+      levels[static_cast<std::size_t>(at)] = to_level(tallest[static_cast<std::size_t>(p)]);
+    }
+  });
+  const auto cols = static_cast<std::size_t>(cols_);
+  const auto rows = static_cast<std::size_t>(rows_);
+  const std::vector<std::uint8_t> nothing(cols);
+  parallel_for(rows * phases * phases, 0, [&](std::size_t i) {
+    const std::size_t row = i % rows;
+    const std::uint8_t* plane_levels = levels.data() + i / rows * plane_cells;
+    const auto level_row = [&](std::size_t r) { return r < rows ? plane_levels + r * cols : nothing.data(); };
+    kernels::interleave_4(level_row(row), level_row(row + 1), level_row(row + 2), level_row(row + 3), cols,
+                          column_of_4_.data() + static_cast<std::size_t>(plane(index, 0, 0)) + i * cols);
+  });
 }
 
 kernels::BoundPlanes BoundTable::planes() const {
-  return {.data = data_.data(),
+  return {.column_of_4 = column_of_4_.data(),
           .stride = cols_,
-          .last_col = cols_ - kernels::tile_cols,
+          .last_col = cols_ - kernels::run_cols,
           .last_row = rows_ - kernels::tile_rows};
 }
 

@@ -13,7 +13,7 @@ namespace landfall::internal {
 
 // Window maxima of 0..31 for blocks of `block_cells` cells, one set of planes per window size: windows
 // begin at every half block, stored by phase (even and odd halves apart), so that neighbouring blocks
-// are neighbouring bytes.
+// are neighbours, four rows to an element.
 class BoundTable {
  public:
   static constexpr int window_sizes = 5;
@@ -28,21 +28,23 @@ class BoundTable {
   static int window_halves(int index);
   static int window_index(int halves);
   [[nodiscard]] kernels::BoundPlanes planes() const;
-  // First byte of a plane.
+  // First element of a plane.
   [[nodiscard]] std::int32_t plane(int window_index, int phase_row, int phase_col) const {
-    return ((window_index * phases + phase_row) * phases + phase_col) * plane_bytes_;
+    return ((window_index * phases + phase_row) * phases + phase_col) * plane_size_;
   }
   // The padding to be added to a block index to get a plane's column or row.
-  static constexpr int pad_cols = kernels::tile_cols + 12;
+  static constexpr int pad_cols = kernels::run_cols + 12;
   static constexpr int pad_rows = kernels::tile_rows + 12;
-  [[nodiscard]] std::size_t memory_bytes() const { return data_.capacity(); }
+  [[nodiscard]] std::size_t memory_bytes() const { return 4 * column_of_4_.capacity(); }
 
  private:
+  void fill_planes(int index, const std::vector<std::uint8_t>& halves, int half_cols, int half_rows);
+
   int block_cells_;
   int cols_;  // of a plane, padding included
   int rows_;
-  std::int32_t plane_bytes_;
-  std::vector<std::uint8_t> data_;
+  std::int32_t plane_size_;
+  std::vector<std::uint32_t> column_of_4_;
 };
 
 // For blocks of 8 x 8 poses at one heading.

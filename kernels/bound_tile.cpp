@@ -16,15 +16,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 // One lane has no halves; the twin does as well.
-bool BoundTile(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
-               int threshold, std::int32_t* scratch, std::uint16_t* sums) {
-  return scalar::bound_tile(planes, points, tile_col, tile_row, threshold, scratch, sums);
+void BoundTiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
+                int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                std::uint16_t* largest) {
+  scalar::bound_tiles(planes, points, tile_col, tile_row, tiles, threshold, allowed, scratch, sums, largest);
 }
 #else
 
-using ByteTag = hn::CappedTag<std::uint8_t, tile_cols>;
+using ByteTag = hn::CappedTag<std::uint8_t, tile_blocks>;
 using WordTag = hn::Repartition<std::uint16_t, ByteTag>;
 
+// First bytes of the points' tiles.
 void TileOffsets(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
                  std::int32_t begin, std::int32_t end, std::int32_t* HWY_RESTRICT offset) {
   const hn::ScalableTag<std::int32_t> d;
@@ -35,122 +37,142 @@ void TileOffsets(const BoundPlanes& planes, const BoundPoints& points, int tile_
   const auto last_col = hn::Set(d, planes.last_col);
   const auto last_row = hn::Set(d, planes.last_row);
   const auto stride = hn::Set(d, planes.stride);
-  std::int32_t i = begin;
-  for (; i + lanes <= end; i += lanes) {
+  for (std::int32_t i = begin; i < end; i += lanes) {
     const auto col = hn::Min(last_col, hn::Max(zero, hn::Add(first_col, hn::LoadU(d, points.col + i))));
     const auto row = hn::Min(last_row, hn::Max(zero, hn::Add(first_row, hn::LoadU(d, points.row + i))));
     const auto in_plane = hn::Add(hn::Mul(row, stride), col);
-    hn::StoreU(hn::Add(in_plane, hn::LoadU(d, points.plane + i)), d, offset + (i - begin));
-  }
-  for (; i < end; ++i) {
-    const int col = std::clamp(tile_col + points.col[i], 0, planes.last_col);
-    const int row = std::clamp(tile_row + points.row[i], 0, planes.last_row);
-    offset[i - begin] = points.plane[i] + row * planes.stride + col;
+    hn::StoreU(hn::ShiftLeft<2>(hn::Add(in_plane, hn::LoadU(d, points.plane + i))), d, offset + (i - begin));
   }
 }
 
-// Adds up to eight points' bytes to the tile's 16-bit sums: the bytes are summed as bytes first.
-// Sums are kept apart for even and odd columns: word w of a row's vector holds column 2 w (even).
-HWY_INLINE void AddEightPoints(const std::uint8_t* HWY_RESTRICT data, std::int32_t stride,
-                               const std::int32_t* HWY_RESTRICT offset, std::int32_t count, std::size_t part,
-                               std::uint16_t* HWY_RESTRICT even, std::uint16_t* HWY_RESTRICT odd) {
+// Sums of one vector of neighbouring blocks: word w of `even` belongs to byte 2 w, of `odd` to the next.
+struct Sums {
+  hn::Vec<WordTag> even;
+  hn::Vec<WordTag> odd;
+
+  HWY_INLINE void Add(hn::Vec<ByteTag> bytes) {
+    const WordTag d;
+    const auto words = hn::BitCast(d, bytes);
+    even = hn::SaturatedAdd(even, hn::And(words, hn::Set(d, 0x00FF)));
+    odd = hn::SaturatedAdd(odd, hn::ShiftRight<8>(words));
+  }
+  HWY_INLINE void Double() {
+    even = hn::SaturatedAdd(even, even);
+    odd = hn::SaturatedAdd(odd, odd);
+  }
+  HWY_INLINE hn::Vec<WordTag> Largest() const { return hn::Max(even, odd); }
+  // As the vector that begins at byte `at` of a tile.
+  HWY_INLINE void Store(std::size_t at, std::uint16_t* HWY_RESTRICT sums) const {
+    const WordTag d;
+    hn::StoreU(even, d, sums + at / 2);
+    hn::StoreU(odd, d, sums + tile_blocks / 2 + at / 2);
+  }
+};
+
+// The sums of `vectors` (1, 2 or 4) neighbouring vectors stay in registers; up to eight points' bytes are
+// added as bytes first.
+template <int vectors>
+bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile_row, int tile_col,
+                  std::size_t first_byte, int threshold, std::int32_t* HWY_RESTRICT offset,
+                  std::uint16_t* HWY_RESTRICT sums) {
+  constexpr std::int32_t points_per_look = 32;
+  constexpr std::int32_t points_per_byte = 255 / bound_levels;
   const ByteTag d;
-  const WordTag d_word;
   const std::size_t lanes = hn::Lanes(d);
-  const std::uint8_t* first = data + offset[0] + part * lanes;
-  auto sum0 = hn::LoadU(d, first);
-  auto sum1 = hn::LoadU(d, first + stride);
-  auto sum2 = hn::LoadU(d, first + 2 * stride);
-  auto sum3 = hn::LoadU(d, first + 3 * stride);
-  auto sum4 = hn::LoadU(d, first + 4 * stride);
-  auto sum5 = hn::LoadU(d, first + 5 * stride);
-  auto sum6 = hn::LoadU(d, first + 6 * stride);
-  auto sum7 = hn::LoadU(d, first + 7 * stride);
-  for (std::int32_t i = 1; i < count; ++i) {
-    const std::uint8_t* next = data + offset[i] + part * lanes;
-    sum0 = hn::Add(sum0, hn::LoadU(d, next));
-    sum1 = hn::Add(sum1, hn::LoadU(d, next + stride));
-    sum2 = hn::Add(sum2, hn::LoadU(d, next + 2 * stride));
-    sum3 = hn::Add(sum3, hn::LoadU(d, next + 3 * stride));
-    sum4 = hn::Add(sum4, hn::LoadU(d, next + 4 * stride));
-    sum5 = hn::Add(sum5, hn::LoadU(d, next + 5 * stride));
-    sum6 = hn::Add(sum6, hn::LoadU(d, next + 6 * stride));
-    sum7 = hn::Add(sum7, hn::LoadU(d, next + 7 * stride));
+  const auto zero = hn::Zero(WordTag());
+  Sums sum0{zero, zero}, sum1{zero, zero}, sum2{zero, zero}, sum3{zero, zero};
+  std::int64_t weight_left = 0;
+  for (std::int32_t list = 0; list < points.lists; ++list)
+    weight_left += std::int64_t{points.list_end[list] - points.list_begin[list]} << (points.lists - 1 - list);
+  const std::uint8_t* HWY_RESTRICT data =
+      reinterpret_cast<const std::uint8_t*>(planes.column_of_4) + first_byte;
+  for (std::int32_t list = 0; list < points.lists; ++list) {
+    const std::int32_t bit = points.lists - 1 - list;
+    const std::int32_t begin = points.list_begin[list];
+    const std::int32_t end = points.list_end[list];
+    if (list > 0) {
+      sum0.Double();
+      if constexpr (vectors > 1) sum1.Double();
+      if constexpr (vectors > 2) sum2.Double();
+      if constexpr (vectors > 2) sum3.Double();
+    }
+    TileOffsets(planes, points, tile_col, tile_row, begin, end, offset);
+    for (std::int32_t i = 0; i < end - begin;) {
+      const std::int32_t look = std::min(end - begin, i + points_per_look);
+      weight_left -= std::int64_t{look - i} << bit;
+      while (i < look) {
+        const std::int32_t stop = std::min(look, i + points_per_byte);
+        auto bytes0 = hn::LoadU(d, data + offset[i]);
+        auto bytes1 = bytes0, bytes2 = bytes0, bytes3 = bytes0;
+        if constexpr (vectors > 1) bytes1 = hn::LoadU(d, data + offset[i] + lanes);
+        if constexpr (vectors > 2) bytes2 = hn::LoadU(d, data + offset[i] + 2 * lanes);
+        if constexpr (vectors > 2) bytes3 = hn::LoadU(d, data + offset[i] + 3 * lanes);
+        for (++i; i < stop; ++i) {
+          const std::uint8_t* next = data + offset[i];
+          bytes0 = hn::Add(bytes0, hn::LoadU(d, next));
+          if constexpr (vectors > 1) bytes1 = hn::Add(bytes1, hn::LoadU(d, next + lanes));
+          if constexpr (vectors > 2) bytes2 = hn::Add(bytes2, hn::LoadU(d, next + 2 * lanes));
+          if constexpr (vectors > 2) bytes3 = hn::Add(bytes3, hn::LoadU(d, next + 3 * lanes));
+        }
+        sum0.Add(bytes0);
+        if constexpr (vectors > 1) sum1.Add(bytes1);
+        if constexpr (vectors > 2) sum2.Add(bytes2);
+        if constexpr (vectors > 2) sum3.Add(bytes3);
+      }
+      if (bound_levels * weight_left >= threshold) continue;
+      auto largest = sum0.Largest();
+      if constexpr (vectors > 1) largest = hn::Max(largest, sum1.Largest());
+      if constexpr (vectors > 2) largest = hn::Max(largest, hn::Max(sum2.Largest(), sum3.Largest()));
+      const std::int64_t most = std::int64_t{hn::GetLane(hn::MaxOfLanes(WordTag(), largest))} << bit;
+      if (most + bound_levels * weight_left < threshold) return false;
+    }
   }
-  const auto low_byte = hn::Set(d_word, 0x00FF);
-  const auto widen = [&](std::size_t row, auto sum) HWY_ATTR {
-    const std::size_t at = row * (tile_cols / 2) + part * (lanes / 2);
-    const auto words = hn::BitCast(d_word, sum);
-    hn::Store(hn::SaturatedAdd(hn::Load(d_word, even + at), hn::And(words, low_byte)), d_word, even + at);
-    hn::Store(hn::SaturatedAdd(hn::Load(d_word, odd + at), hn::ShiftRight<8>(words)), d_word, odd + at);
+  const auto store = [&](const Sums& sum, std::size_t vector) HWY_ATTR {
+    const std::size_t at = first_byte + vector * lanes;
+    sum.Store(at % tile_blocks, sums + at / tile_blocks * tile_blocks);
   };
-  widen(0, sum0);
-  widen(1, sum1);
-  widen(2, sum2);
-  widen(3, sum3);
-  widen(4, sum4);
-  widen(5, sum5);
-  widen(6, sum6);
-  widen(7, sum7);
+  store(sum0, 0);
+  if constexpr (vectors > 1) store(sum1, 1);
+  if constexpr (vectors > 2) store(sum2, 2);
+  if constexpr (vectors > 2) store(sum3, 3);
+  return true;
 }
 
-constexpr std::size_t half_tile = tile_blocks / 2;
-
-int LargestSum(const std::uint16_t* even, const std::uint16_t* odd) {
+std::uint16_t KeepAllowed(const std::uint16_t* HWY_RESTRICT allowed, std::uint16_t* HWY_RESTRICT sums) {
   const WordTag d;
   auto largest = hn::Zero(d);
-  for (std::size_t i = 0; i < half_tile; i += hn::Lanes(d)) {
-    largest = hn::Max(largest, hn::Max(hn::Load(d, even + i), hn::Load(d, odd + i)));
+  for (std::size_t i = 0; i < tile_blocks; i += hn::Lanes(d)) {
+    const auto kept = hn::And(hn::LoadU(d, allowed + i), hn::LoadU(d, sums + i));
+    hn::StoreU(kept, d, sums + i);
+    largest = hn::Max(largest, kept);
   }
   return hn::GetLane(hn::MaxOfLanes(d, largest));
 }
 
-void DoubleSums(std::uint16_t* even, std::uint16_t* odd) {
-  const WordTag d;
-  for (std::size_t i = 0; i < half_tile; i += hn::Lanes(d)) {
-    const auto e = hn::Load(d, even + i);
-    const auto o = hn::Load(d, odd + i);
-    hn::Store(hn::SaturatedAdd(e, e), d, even + i);
-    hn::Store(hn::SaturatedAdd(o, o), d, odd + i);
+void BoundTiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
+                int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                std::uint16_t* largest) {
+  const std::size_t lanes = hn::Lanes(ByteTag());
+  const std::size_t bytes = static_cast<std::size_t>(tiles) * tile_blocks;
+  // The last vectors may reach past the run: their sums end here.
+  HWY_ALIGN std::uint16_t run[most_tiles * tile_blocks];
+  for (int tile = 0; tile < tiles; ++tile) largest[tile] = 1;
+  for (std::size_t at = 0; at < bytes;) {
+    const std::size_t vectors_left = (bytes - at) / lanes;
+    const std::size_t vectors = vectors_left >= 3 ? 4 : vectors_left;
+    const bool bounded =
+        vectors == 4   ? BoundVectors<4>(planes, points, tile_row, tile_col, at, threshold, scratch, run)
+        : vectors == 2 ? BoundVectors<2>(planes, points, tile_row, tile_col, at, threshold, scratch, run)
+                       : BoundVectors<1>(planes, points, tile_row, tile_col, at, threshold, scratch, run);
+    const std::size_t end = std::min(bytes, at + vectors * lanes);
+    if (!bounded)
+      for (std::size_t tile = at / tile_blocks; tile * tile_blocks < end; ++tile) largest[tile] = 0;
+    at = end;
   }
-}
-
-bool BoundTile(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
-               int threshold, std::int32_t* scratch, std::uint16_t* sums) {
-  constexpr std::int32_t points_per_look = 32;
-  HWY_ALIGN std::uint16_t even[half_tile] = {};
-  HWY_ALIGN std::uint16_t odd[half_tile] = {};
-  const std::size_t parts = tile_cols / hn::Lanes(ByteTag());
-  std::int64_t weight_left = 0;
-  for (std::int32_t list = 0, begin = 0; list < points.lists; ++list) {
-    weight_left += std::int64_t{points.list_end[list] - begin} << (points.lists - 1 - list);
-    begin = points.list_end[list];
-  }
-  for (std::int32_t list = 0, begin = 0; list < points.lists; ++list) {
-    const std::int32_t bit = points.lists - 1 - list;
-    const std::int32_t end = points.list_end[list];
-    if (list > 0) DoubleSums(even, odd);
-    TileOffsets(planes, points, tile_col, tile_row, begin, end, scratch);
-    for (std::int32_t i = 0; i < end - begin;) {
-      const std::int32_t stop = std::min(end - begin, i + points_per_look);
-      weight_left -= std::int64_t{stop - i} << bit;
-      for (; i < stop; i += 8) {
-        const std::int32_t count = std::min(8, stop - i);
-        for (std::size_t part = 0; part < parts; ++part) {
-          AddEightPoints(planes.data, planes.stride, scratch + i, count, part, even, odd);
-        }
-      }
-      i = stop;
-      const std::int64_t largest = std::int64_t{LargestSum(even, odd)} << bit;
-      if (largest + bound_levels * weight_left < threshold) return false;
-    }
-    begin = end;
-  }
-  for (std::size_t i = 0; i < half_tile; ++i) {
-    sums[2 * i] = even[i];
-    sums[2 * i + 1] = odd[i];
-  }
-  return true;
+  std::copy_n(run, bytes, sums);
+  for (int tile = 0; tile < tiles; ++tile)
+    if (largest[tile] != 0)
+      largest[tile] = KeepAllowed(allowed + tile * tile_blocks, sums + tile * tile_blocks);
 }
 
 #endif
@@ -162,36 +184,38 @@ HWY_AFTER_NAMESPACE();
 namespace landfall::kernels {
 
 namespace scalar {
-bool bound_tile(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
-                int threshold, std::int32_t* /*scratch*/, std::uint16_t* sums) {
-  int largest = 0;
-  for (int r = 0; r < tile_rows; ++r) {
-    for (int c = 0; c < tile_cols; ++c) {
+void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
+                 int /*threshold*/, const std::uint16_t* allowed, std::int32_t* /*scratch*/,
+                 std::uint16_t* sums, std::uint16_t* largest) {
+  for (int tile = 0; tile < tiles; ++tile) {
+    largest[tile] = 0;
+    for (int lane = 0; lane < tile_blocks; ++lane) {
       std::int64_t sum = 0;
-      for (std::int32_t list = 0, i = 0; list < points.lists; ++list) {
-        for (; i < points.list_end[list]; ++i) {
-          const int col = std::clamp(tile_col + points.col[i], 0, planes.last_col) + c;
-          const int row = std::clamp(tile_row + points.row[i], 0, planes.last_row) + r;
-          sum += std::int64_t{planes.data[points.plane[i] + row * planes.stride + col]}
-                 << (points.lists - 1 - list);
+      for (std::int32_t list = 0; list < points.lists; ++list) {
+        for (std::int32_t i = points.list_begin[list]; i < points.list_end[list]; ++i) {
+          // The run is clamped as a whole.
+          const int col = std::clamp(tile_col + points.col[i], 0, planes.last_col) + tile * tile_cols;
+          const int row = std::clamp(tile_row + points.row[i], 0, planes.last_row);
+          const std::uint32_t column =
+              planes.column_of_4[points.plane[i] + row * planes.stride + col + lane_col(lane)];
+          sum += std::int64_t{(column >> (8 * lane_row(lane))) & 0xFFU} << (points.lists - 1 - list);
         }
       }
-      const int saturated = static_cast<int>(std::min<std::int64_t>(sum, 65535));
-      sums[r * tile_cols + c] = static_cast<std::uint16_t>(saturated);
-      largest = std::max(largest, saturated);
+      const int at = tile * tile_blocks + lane;
+      sums[at] = static_cast<std::uint16_t>(std::min<std::int64_t>(sum, 65535) & allowed[at]);
+      largest[tile] = std::max(largest[tile], sums[at]);
     }
   }
-  return largest >= threshold;
 }
 }  // namespace scalar
 
-HWY_EXPORT(BoundTile);
+HWY_EXPORT(BoundTiles);
 
-bool bound_tile(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
-                int threshold, std::int32_t* scratch, std::uint16_t* sums) {
-  return scalar_selected()
-             ? scalar::bound_tile(planes, points, tile_col, tile_row, threshold, scratch, sums)
-             : HWY_DYNAMIC_DISPATCH(BoundTile)(planes, points, tile_col, tile_row, threshold, scratch, sums);
+void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
+                 int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                 std::uint16_t* largest) {
+  const auto bound = scalar_selected() ? scalar::bound_tiles : HWY_DYNAMIC_DISPATCH(BoundTiles);
+  bound(planes, points, tile_col, tile_row, tiles, threshold, allowed, scratch, sums, largest);
 }
 
 }  // namespace landfall::kernels

@@ -6,42 +6,65 @@
 
 namespace landfall::kernels {
 
-inline constexpr int tile_cols = 32;
-inline constexpr int tile_rows = 8;
+inline constexpr int tile_cols = 16;
+inline constexpr int tile_rows = 4;
 inline constexpr int tile_blocks = tile_cols * tile_rows;
+// So many tiles, side by side, are bounded together.
+inline constexpr int most_tiles = 4;
+inline constexpr int run_cols = most_tiles * tile_cols;
 
 // Values of the bound tables: 0 .. 31, so that eight of them still fit into a byte.
 inline constexpr int bound_levels = 31;
 
-// Planes of window maxima, one per window size and phase, each padded so that a clamped tile reads
+// Planes of window maxima, one per window size and phase, each padded so that a clamped run of tiles reads
 // zeros where it is off the map.
 struct BoundPlanes {
-  const std::uint8_t* data = nullptr;
-  std::int32_t stride = 0;    // bytes a row
-  std::int32_t last_col = 0;  // a tile begins in columns 0 .. last_col and rows 0 .. last_row, padding
-  std::int32_t last_row = 0;  // included; the outermost tiles are empty
+  const std::uint32_t* column_of_4 = nullptr;  // [row][col]: four rows' levels from there upwards, one byte
+                                               // each, the lowest row in the lowest byte
+  std::int32_t stride = 0;                     // elements a row
+  std::int32_t last_col = 0;  // a run begins in columns 0 .. last_col and rows 0 .. last_row, padding
+  std::int32_t last_row = 0;  // included; the outermost runs are empty
 };
 
-// Points of one heading group, structure of arrays: the plane's first byte, and the block offset
-// (padding added). A point of weight w stands in the list of every bit of w; lists from the highest
-// bit down, list b ends at list_end[b].
+// Points of one heading group, structure of arrays: the plane's first element, and the block offset
+// (padding added). A point of weight w stands in the list of every bit of w; lists from the highest bit
+// down, list b holds [list_begin[b], list_end[b]). A vector may be read from any point: the arrays are
+// `point_padding` longer than their last list.
 struct BoundPoints {
   const std::int32_t* plane = nullptr;
   const std::int32_t* col = nullptr;
   const std::int32_t* row = nullptr;
-  const std::int32_t* list_end = nullptr;  // [lists]
+  const std::int32_t* list_begin = nullptr;  // [lists]
+  const std::int32_t* list_end = nullptr;    // [lists]
   std::int32_t lists = 0;
 };
+inline constexpr int point_padding = 16;
 
-// sums[r * tile_cols + c]: the weighted sum over the points for block (tile_row + r, tile_col + c),
-// saturated at 65535. False, sums undefined, once no block can reach `threshold` (at most 65535).
-// `scratch` holds one element per point of the longest list.
-bool bound_tile(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
-                int threshold, std::int32_t* scratch, std::uint16_t* sums);
+// Where block (col, row) of a tile stands among its sums: even rows first, as the kernel adds them.
+constexpr int tile_lane(int col, int row) {
+  return (row & 1) * (tile_blocks / 2) + (col * tile_rows + row) / 2;
+}
+constexpr int lane_row(int lane) {
+  return 2 * (lane % 2) + (lane >= tile_blocks / 2 ? 1 : 0);
+}
+constexpr int lane_col(int lane) {
+  return lane % (tile_blocks / 2) / 2;
+}
+
+// `tiles` of them (1 .. most_tiles), each tile_cols farther right than the one before.
+// sums[t * tile_blocks + tile_lane(c, r)]: the weighted sum over the points for block
+// (tile_row + r, tile_col + t * tile_cols + c), saturated at 65535, where `allowed` is all ones, 0 where it
+// is 0. largest[t]: the largest of a tile. A tile none of whose blocks can reach `threshold` (at most 65535)
+// may be given up: its sums are undefined then, and its largest is 0. `scratch` holds one element per point
+// of the longest list, and point_padding.
+void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
+                 int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                 std::uint16_t* largest);
 
 namespace scalar {
-bool bound_tile(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
-                int threshold, std::int32_t* scratch, std::uint16_t* sums);
+void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
+                 int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                 std::uint16_t* largest);
 }
 
 }  // namespace landfall::kernels

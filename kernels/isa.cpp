@@ -10,6 +10,7 @@ namespace landfall::kernels {
 namespace {
 
 std::atomic<bool> scalar{false};
+std::atomic<const char*> name{nullptr};  // of the best target that is not disabled; null: not asked yet
 
 // Highway numbers targets so that a better one of the same architecture is a lower bit.
 std::int64_t best_of(std::int64_t targets) {
@@ -17,10 +18,10 @@ std::int64_t best_of(std::int64_t targets) {
 }
 
 // The machine's target of that name; 0: none.
-std::int64_t find_target(std::string_view name) {
+std::int64_t find_target(std::string_view target_name) {
   static const std::int64_t all = hwy::SupportedTargets();
   for (std::int64_t rest = all; rest != 0; rest &= rest - 1)
-    if (name == hwy::TargetName(best_of(rest))) return best_of(rest);
+    if (target_name == hwy::TargetName(best_of(rest))) return best_of(rest);
   return 0;
 }
 
@@ -31,11 +32,18 @@ bool scalar_selected() {
 }
 
 const char* isa_name() {
-  return scalar_selected() ? "SCALAR" : hwy::TargetName(best_of(hwy::SupportedTargets()));
+  if (scalar_selected()) return "SCALAR";
+  // Asking the processor takes tens of microseconds on a virtual one.
+  const char* known = name.load(std::memory_order_relaxed);
+  if (known == nullptr) {
+    known = hwy::TargetName(best_of(hwy::SupportedTargets()));
+    name.store(known, std::memory_order_relaxed);
+  }
+  return known;
 }
 
-bool select_isa(const char* name) {
-  const std::string_view wanted = name == nullptr ? "" : name;
+bool select_isa(const char* target_name) {
+  const std::string_view wanted = target_name == nullptr ? "" : target_name;
   std::int64_t disabled = 0;  // none: the best
   if (!wanted.empty() && wanted != "SCALAR") {
     const std::int64_t target = find_target(wanted);
@@ -44,6 +52,7 @@ bool select_isa(const char* name) {
   }
   scalar = wanted == "SCALAR";
   hwy::DisableTargets(disabled);
+  name = nullptr;
   return true;
 }
 

@@ -3,17 +3,41 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "engine/query.hpp"
 
 namespace landfall::internal {
 
+// Cells of the end points at every heading, computed when first asked for; by several threads at a time.
+class HeadingCellsOnDemand {
+ public:
+  HeadingCellsOnDemand(const EndPoints& points, const Lattice& lattice)
+      : points_(points),
+        lattice_(lattice),
+        cells_(static_cast<std::size_t>(lattice.headings)),
+        once_(std::make_unique<std::once_flag[]>(cells_.size())) {}
+
+  const HeadingCells& at(int heading) {
+    const auto k = static_cast<std::size_t>(heading);
+    std::call_once(once_[k], [&] { cells_at_heading(points_, lattice_, heading, cells_[k]); });
+    return cells_[k];
+  }
+
+ private:
+  const EndPoints& points_;
+  const Lattice& lattice_;
+  std::vector<HeadingCells> cells_;
+  std::unique_ptr<std::once_flag[]> once_;
+};
+
 // What the threads of one search share.
 struct SharedSearch {
   const Query& query;
   kernels::WindowPlanes planes;
-  std::vector<HeadingCells> heading_cells;  // [heading], where the prior has poses
+  HeadingCellsOnDemand heading_cells;
   std::int32_t margin = 0;
   std::atomic<std::int32_t> best{0};
 

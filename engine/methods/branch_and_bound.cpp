@@ -20,11 +20,10 @@ class BranchAndBound {
         groups_(choose_groups(query.points, query.lattice)),
         search_{.query = query,
                 .planes = query.map.window_tables().planes(),
-                .heading_cells = std::vector<HeadingCells>(static_cast<std::size_t>(query.lattice.headings)),
+                .heading_cells = HeadingCellsOnDemand(query.points, query.lattice),
                 .margin = query.margin} {}
 
   Proposal run() {
-    compute_heading_cells();
     if (query_.domain.poses <= few_poses) {
       take_all_blocks();
     } else {
@@ -38,60 +37,68 @@ class BranchAndBound {
   // So few are scored without dense bounds before them.
   static constexpr std::int64_t few_poses = 200'000;
 
-  void compute_heading_cells() {
-    parallel_for(static_cast<std::size_t>(groups_.count()), query_.threads, [&](std::size_t group) {
-      for (int k = groups_.first(static_cast<int>(group)); k < groups_.last(static_cast<int>(group)); ++k)
-        if (query_.domain.mask_of_heading[static_cast<std::size_t>(k)] != nullptr)
-          cells_at_heading(query_.points, query_.lattice, k,
-                           search_.heading_cells[static_cast<std::size_t>(k)]);
-    });
-  }
-
+  // The headings in the middle come first: the robot is mostly where a prior says, and a good pose early
+  // excludes the others.
   void take_all_blocks() {
-    for (int group = 0; group < groups_.count(); ++group) {
-      const BlockMask box = group_mask(group);
-      for (int row = box.first_row; row < box.first_row + box.rows; ++row)
-        for (int col = box.first_col; col < box.first_col + box.cols; ++col)
-          if (box.at(col, row) != 0)
+    const BlockSet blocks = blocks_of(query_.domain);
+    std::vector<int> groups;
+    for (int group = 0; group < groups_.count(); ++group)
+      if (has_poses(group)) groups.push_back(group);
+    const auto middle = static_cast<std::ptrdiff_t>(groups.size() / 2);
+    std::rotate(groups.begin(), groups.begin() + middle, groups.end());
+    for (const int group : groups)
+      for (int row = blocks.first_row; row < blocks.first_row + blocks.rows; ++row)
+        for (int col = blocks.first_col; col < blocks.first_col + blocks.cols; ++col)
+          if (blocks.contains(col, row))
             nodes_.push_back({.bound = no_bound,
                               .group = static_cast<std::uint16_t>(group),
                               .row = static_cast<std::uint16_t>(row),
                               .col = static_cast<std::uint16_t>(col)});
-    }
   }
 
-  [[nodiscard]] BlockMask group_mask(int group) const {
-    BlockMask any;
-    const BlockMask* last = nullptr;
-    for (int k = groups_.first(group); k < groups_.last(group); ++k) {
-      const SharedMask& mask = query_.domain.mask_of_heading[static_cast<std::size_t>(k)];
-      if (mask == nullptr || mask.get() == last) continue;
-      any = merged(any, *mask);
-      last = mask.get();
-    }
-    return any;
+  [[nodiscard]] bool has_poses(int group) const {
+    const auto begin = query_.domain.mask_of_heading.begin();
+    return std::any_of(begin + groups_.first(group), begin + groups_.last(group),
+                       [](const SharedMask& mask) { return mask != nullptr; });
   }
 
   void bound_and_collect() {
+    constexpr double promising_share = 0.06;  // of the coarse tiles: the best pose is mostly in one of them
     constexpr std::size_t dives = 24;
-    DenseBounds bounds(query_, groups_);
-    for (int first = 0; first < groups_.count() && !query_.out_of_time();
-         first += bounds.groups_at_a_time()) {
-      const int last = std::min(groups_.count(), first + bounds.groups_at_a_time());
-      proposal_.counts.bounds_computed += bounds.compute(first, last, search_.lowest());
-      find_incumbent(bounds.best_of_tiles(dives));
-      const std::vector<Node> survivors = bounds.survivors(search_.lowest());
+    const BlockSet blocks = blocks_of(query_.domain);
+    const BoundLevel small{
+        .query = query_, .table = query_.map.bound_table(), .groups = groups_, .layout = TileLayout(blocks)};
+    const BoundLevel large{.query = query_,
+                           .table = query_.map.coarse_bound_table(),
+                           .groups = groups_.doubled(),
+                           .layout = TileLayout(doubled(blocks))};
+    CoarseBounds coarse(large);
+    FineBounds fine(small, coarse, tile_of_lanes(large.layout, small.layout));
+    for (int first = 0; first < large.groups.count() && !query_.out_of_time();
+         first += coarse.groups_at_a_time()) {
+      const int last = std::min(large.groups.count(), first + coarse.groups_at_a_time());
+      proposal_.counts.bounds_computed += coarse.compute(first, last);
+      find_incumbent(fine.best_of_tiles(first, last, coarse.bound_of_best(promising_share), dives));
+      const std::vector<Node> survivors = fine.survivors(first, last, search_.lowest());
       nodes_.insert(nodes_.end(), survivors.begin(), survivors.end());
     }
-    std::sort(nodes_.begin(), nodes_.end(), PromisesMore());
+    proposal_.counts.bounds_computed += fine.bounds_computed;
+    sort_nodes(nodes_);
   }
 
-  // These nodes survive and are visited again; what they gave counts where time runs out before that.
+  // These nodes are visited again later; what they gave counts where time runs out before that.
   void find_incumbent(const std::vector<Node>& nodes) {
-    BlockScorer scorer(search_);
-    for (const Node& node : nodes) visit(scorer, node);
-    proposal_.counts.bounds_computed += scorer.bounds_computed;
-    early_candidates_.insert(early_candidates_.end(), scorer.candidates.begin(), scorer.candidates.end());
+    std::vector<std::unique_ptr<BlockScorer>> scorers(
+        static_cast<std::size_t>(std::max(1, thread_count(query_.threads))));
+    std::atomic<std::size_t> next{0};
+    parallel_for(scorers.size(), query_.threads, [&](std::size_t i) {
+      scorers[i] = std::make_unique<BlockScorer>(search_);
+      for (std::size_t n = next++; n < nodes.size(); n = next++) visit(*scorers[i], nodes[n]);
+    });
+    for (const auto& scorer : scorers) {
+      proposal_.counts.bounds_computed += scorer->bounds_computed;
+      early_candidates_.insert(early_candidates_.end(), scorer->candidates.begin(), scorer->candidates.end());
+    }
   }
 
   void visit(BlockScorer& scorer, const Node& node) const {

@@ -1,7 +1,8 @@
 // The end points of a scan as the bound tables see them: for a group of neighbouring headings, rounded to
-// half blocks, equal ones merged.
+// half blocks, equal neighbours merged.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,25 +21,18 @@ class GroupPoints {
   // Headings [first, last) of the lattice.
   void build(const EndPoints& points, const Lattice& lattice, const BoundTable& table, int first, int last);
 
+  [[nodiscard]] bool is_built() const { return lists_ > 0; }
   [[nodiscard]] kernels::BoundPoints view() const;
   // Points whose end moves over more cells than the widest window: they bound nothing, and count in full.
   [[nodiscard]] std::int32_t unbounded() const { return unbounded_; }
-  std::vector<std::int32_t>& scratch() { return scratch_; }
 
  private:
-  struct Merged {
-    std::int32_t plane;
-    std::int32_t col;
-    std::int32_t row;
-    std::int32_t weight;
-  };
-  void merge(std::int32_t plane, std::int32_t col, std::int32_t row);
-  void make_lists();
+  static constexpr int most_lists = 8;
 
-  std::vector<Merged> merged_;
-  std::vector<std::int32_t> slots_;  // hash table: index into merged_, or -1
-  std::vector<std::int32_t> plane_, col_, row_, list_end_;
-  std::vector<std::int32_t> scratch_;
+  std::vector<std::int32_t> plane_, col_, row_;  // one list after the other
+  std::array<std::int32_t, most_lists> list_begin_{};
+  std::array<std::int32_t, most_lists> list_end_{};
+  int lists_ = 0;
   std::int32_t unbounded_ = 0;
 };
 

@@ -72,29 +72,35 @@ TEST(BoundTable, HoldsTheQuantisedMaximumOfEveryWindow) {
           const std::int32_t first = table.plane(index, row_half & 1, col_half & 1);
           const int row = floor_divide(row_half, 2) + BoundTable::pad_rows;
           const int col = floor_divide(col_half, 2) + BoundTable::pad_cols;
-          const int level = table.planes().data[first + row * table.planes().stride + col];
-          const int most = field.window_max(col_half * half, row_half * half, size);
-          ASSERT_GE(level * 255, most * kernels::bound_levels);
-          ASSERT_EQ(level, (most * kernels::bound_levels + 254) / 255)
-              << "window " << index << " at halves " << col_half << ", " << row_half;
+          const std::uint32_t column = table.planes().column_of_4[first + row * table.planes().stride + col];
+          for (int up = 0; up < 4; ++up) {
+            const int level = static_cast<int>((column >> (8 * up)) & 0xFFU);
+            // A plane's rows are whole blocks apart.
+            const int most = field.window_max(col_half * half, (row_half + 2 * up) * half, size);
+            ASSERT_GE(level * 255, most * kernels::bound_levels);
+            ASSERT_EQ(level, (most * kernels::bound_levels + 254) / 255)
+                << "window " << index << " at halves " << col_half << ", " << row_half << ", up " << up;
+          }
         }
       }
     }
   }
 }
 
-TEST(BoundTable, OutermostTilesAreEmpty) {
+TEST(BoundTable, OutermostRunsAreEmpty) {
   const Field full{.width = 45, .height = 37, .values = std::vector<std::uint8_t>(45 * 37, 255)};
   const BoundTable table = internal::make_bound_table(full.values, full.width, full.height, block_cells);
   const kernels::BoundPlanes planes = table.planes();
   const auto largest = [&](int index, int col, int row) {
-    int most = 0;
+    std::uint32_t most = 0;
     for (int phase = 0; phase < 4; ++phase)
-      for (int r = row; r < row + kernels::tile_rows; ++r)
-        for (int c = col; c < col + kernels::tile_cols; ++c)
-          most = std::max<int>(most,
-                               planes.data[table.plane(index, phase / 2, phase % 2) + r * planes.stride + c]);
-    return most;
+      for (int c = col; c < col + kernels::run_cols; ++c)
+        for (int up = 0; up < 4; ++up)
+          most = std::max(
+              most, (planes.column_of_4[table.plane(index, phase / 2, phase % 2) + row * planes.stride + c] >>
+                     (8 * up)) &
+                        0xFFU);
+    return static_cast<int>(most);
   };
   for (int index = 0; index < BoundTable::window_sizes; ++index) {
     for (int row = 0; row <= planes.last_row; ++row) {
