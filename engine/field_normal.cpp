@@ -38,10 +38,10 @@ struct FieldSample {
 namespace {
 
 // Sums that stay in registers.
-template <Residual residual>
+template <Residual Kind>
 FieldNormal linearise_as(const PreparedState& map, const EndPoints& points, const Eigen::Vector3d& pose) {
   constexpr double least_lack = 0.02;  // the root is steep at 0
-  constexpr bool root = residual == Residual::root;
+  constexpr bool root = Kind == Residual::root;
   const std::uint8_t* field = map.field().data();
   const int width = map.grid().width_cells;
   const int height = map.grid().height_cells;

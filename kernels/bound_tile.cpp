@@ -50,28 +50,28 @@ struct Sums {
   hn::Vec<WordTag> even;
   hn::Vec<WordTag> odd;
 
-  HWY_INLINE void Add(hn::Vec<ByteTag> bytes) {
+  HWY_INLINE void add(hn::Vec<ByteTag> bytes) {
     const WordTag d;
     const auto words = hn::BitCast(d, bytes);
     even = hn::SaturatedAdd(even, hn::And(words, hn::Set(d, 0x00FF)));
     odd = hn::SaturatedAdd(odd, hn::ShiftRight<8>(words));
   }
-  HWY_INLINE void Double() {
+  HWY_INLINE void redouble() {
     even = hn::SaturatedAdd(even, even);
     odd = hn::SaturatedAdd(odd, odd);
   }
-  HWY_INLINE hn::Vec<WordTag> Largest() const { return hn::Max(even, odd); }
+  HWY_INLINE hn::Vec<WordTag> largest() const { return hn::Max(even, odd); }
   // As the vector that begins at byte `at` of a tile.
-  HWY_INLINE void Store(std::size_t at, std::uint16_t* HWY_RESTRICT sums) const {
+  HWY_INLINE void store(std::size_t at, std::uint16_t* HWY_RESTRICT sums) const {
     const WordTag d;
     hn::StoreU(even, d, sums + at / 2);
     hn::StoreU(odd, d, sums + tile_blocks / 2 + at / 2);
   }
 };
 
-// The sums of `vectors` (1, 2 or 4) neighbouring vectors stay in registers; up to eight points' bytes are
+// The sums of `Vectors` (1, 2 or 4) neighbouring vectors stay in registers; up to eight points' bytes are
 // added as bytes first.
-template <int vectors>
+template <int Vectors>
 bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile_row, int tile_col,
                   std::size_t first_byte, int threshold, std::int32_t* HWY_RESTRICT offset,
                   std::uint16_t* HWY_RESTRICT sums) {
@@ -91,10 +91,10 @@ bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile
     const std::int32_t begin = points.list_begin[list];
     const std::int32_t end = points.list_end[list];
     if (list > 0) {
-      sum0.Double();
-      if constexpr (vectors > 1) sum1.Double();
-      if constexpr (vectors > 2) sum2.Double();
-      if constexpr (vectors > 2) sum3.Double();
+      sum0.redouble();
+      if constexpr (Vectors > 1) sum1.redouble();
+      if constexpr (Vectors > 2) sum2.redouble();
+      if constexpr (Vectors > 2) sum3.redouble();
     }
     TileOffsets(planes, points, tile_col, tile_row, begin, end, offset);
     for (std::int32_t i = 0; i < end - begin;) {
@@ -104,37 +104,37 @@ bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile
         const std::int32_t stop = std::min(look, i + points_per_byte);
         auto bytes0 = hn::LoadU(d, data + offset[i]);
         auto bytes1 = bytes0, bytes2 = bytes0, bytes3 = bytes0;
-        if constexpr (vectors > 1) bytes1 = hn::LoadU(d, data + offset[i] + lanes);
-        if constexpr (vectors > 2) bytes2 = hn::LoadU(d, data + offset[i] + 2 * lanes);
-        if constexpr (vectors > 2) bytes3 = hn::LoadU(d, data + offset[i] + 3 * lanes);
+        if constexpr (Vectors > 1) bytes1 = hn::LoadU(d, data + offset[i] + lanes);
+        if constexpr (Vectors > 2) bytes2 = hn::LoadU(d, data + offset[i] + 2 * lanes);
+        if constexpr (Vectors > 2) bytes3 = hn::LoadU(d, data + offset[i] + 3 * lanes);
         for (++i; i < stop; ++i) {
           const std::uint8_t* next = data + offset[i];
           bytes0 = hn::Add(bytes0, hn::LoadU(d, next));
-          if constexpr (vectors > 1) bytes1 = hn::Add(bytes1, hn::LoadU(d, next + lanes));
-          if constexpr (vectors > 2) bytes2 = hn::Add(bytes2, hn::LoadU(d, next + 2 * lanes));
-          if constexpr (vectors > 2) bytes3 = hn::Add(bytes3, hn::LoadU(d, next + 3 * lanes));
+          if constexpr (Vectors > 1) bytes1 = hn::Add(bytes1, hn::LoadU(d, next + lanes));
+          if constexpr (Vectors > 2) bytes2 = hn::Add(bytes2, hn::LoadU(d, next + 2 * lanes));
+          if constexpr (Vectors > 2) bytes3 = hn::Add(bytes3, hn::LoadU(d, next + 3 * lanes));
         }
-        sum0.Add(bytes0);
-        if constexpr (vectors > 1) sum1.Add(bytes1);
-        if constexpr (vectors > 2) sum2.Add(bytes2);
-        if constexpr (vectors > 2) sum3.Add(bytes3);
+        sum0.add(bytes0);
+        if constexpr (Vectors > 1) sum1.add(bytes1);
+        if constexpr (Vectors > 2) sum2.add(bytes2);
+        if constexpr (Vectors > 2) sum3.add(bytes3);
       }
       if (bound_levels * weight_left >= threshold) continue;
-      auto largest = sum0.Largest();
-      if constexpr (vectors > 1) largest = hn::Max(largest, sum1.Largest());
-      if constexpr (vectors > 2) largest = hn::Max(largest, hn::Max(sum2.Largest(), sum3.Largest()));
+      auto largest = sum0.largest();
+      if constexpr (Vectors > 1) largest = hn::Max(largest, sum1.largest());
+      if constexpr (Vectors > 2) largest = hn::Max(largest, hn::Max(sum2.largest(), sum3.largest()));
       const std::int64_t most = std::int64_t{hn::GetLane(hn::MaxOfLanes(WordTag(), largest))} << bit;
       if (most + bound_levels * weight_left < threshold) return false;
     }
   }
   const auto store = [&](const Sums& sum, std::size_t vector) HWY_ATTR {
     const std::size_t at = first_byte + vector * lanes;
-    sum.Store(at % tile_blocks, sums + at / tile_blocks * tile_blocks);
+    sum.store(at % tile_blocks, sums + at / tile_blocks * tile_blocks);
   };
   store(sum0, 0);
-  if constexpr (vectors > 1) store(sum1, 1);
-  if constexpr (vectors > 2) store(sum2, 2);
-  if constexpr (vectors > 2) store(sum3, 3);
+  if constexpr (Vectors > 1) store(sum1, 1);
+  if constexpr (Vectors > 2) store(sum2, 2);
+  if constexpr (Vectors > 2) store(sum3, 3);
   return true;
 }
 

@@ -39,7 +39,7 @@ std::int32_t BlockScorer::bound(const HeadingCells& cells, int block_row, int bl
 }
 
 void BlockScorer::visit(int heading, std::uint64_t allowed, int block_row, int block_col) {
-  const HeadingCells& cells = search_.heading_cells.at(heading);
+  const HeadingCells& cells = search_.heading_cells->at(heading);
   const std::int32_t lowest = search_.lowest();
   ++bounds_computed;
   if (bound(cells, block_row, block_col, lowest) < lowest) return;

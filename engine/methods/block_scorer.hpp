@@ -37,7 +37,7 @@ class HeadingCellsOnDemand {
 struct SharedSearch {
   const Query& query;
   kernels::WindowPlanes planes;
-  HeadingCellsOnDemand heading_cells;
+  std::unique_ptr<HeadingCellsOnDemand> heading_cells;
   std::int32_t margin = 0;
   std::atomic<std::int32_t> best{0};
 

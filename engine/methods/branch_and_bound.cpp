@@ -7,6 +7,7 @@
 
 #include "engine/methods/block_scorer.hpp"
 #include "engine/methods/dense_bounds.hpp"
+#include "engine/methods/point_order.hpp"
 #include "engine/methods/table.hpp"
 #include "engine/parallel.hpp"
 
@@ -20,7 +21,7 @@ class BranchAndBound {
         groups_(choose_groups(query.points, query.lattice)),
         search_{.query = query,
                 .planes = query.map.window_tables().planes(),
-                .heading_cells = HeadingCellsOnDemand(query.points, query.lattice),
+                .heading_cells = std::make_unique<HeadingCellsOnDemand>(query.points, query.lattice),
                 .margin = query.margin} {}
 
   Proposal run() {
@@ -36,6 +37,8 @@ class BranchAndBound {
  private:
   // So few are scored without dense bounds before them.
   static constexpr std::int64_t few_poses = 200'000;
+  // So few are visited without a thought to the order of the points.
+  static constexpr std::size_t few_nodes = 1000;
 
   // The headings in the middle come first: the robot is mostly where a prior says, and a good pose early
   // excludes the others.
@@ -63,7 +66,7 @@ class BranchAndBound {
   }
 
   void bound_and_collect() {
-    constexpr double promising_share = 0.06;  // of the coarse tiles: the best pose is mostly in one of them
+    constexpr double promising_share = 0.03;  // of the coarse tiles: the best pose is mostly in one of them
     constexpr std::size_t dives = 24;
     const BlockSet blocks = blocks_of(query_.domain);
     const BoundLevel small{
@@ -84,6 +87,10 @@ class BranchAndBound {
     }
     proposal_.counts.bounds_computed += fine.bounds_computed;
     sort_nodes(nodes_);
+    if (nodes_.size() > few_nodes) {
+      telling_points_ = most_telling_first(query_.points, search_, groups_, nodes_);
+      search_.heading_cells = std::make_unique<HeadingCellsOnDemand>(telling_points_, query_.lattice);
+    }
   }
 
   // These nodes are visited again later; what they gave counts where time runs out before that.
@@ -146,6 +153,7 @@ class BranchAndBound {
   HeadingGroups groups_;
   SharedSearch search_;
   std::vector<Node> nodes_;
+  EndPoints telling_points_;  // query_.points in another order
   std::vector<Candidate> early_candidates_;
   Proposal proposal_;
 };

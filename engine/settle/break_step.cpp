@@ -11,7 +11,7 @@ using Eigen::VectorXd;
 VectorXd break_worst_step(const SettleProblem& problem, VectorXd poses, int reach_cells) {
   constexpr double rare_nats = 8.0;  // where a map is off, corridors offer much by chance
   const std::size_t parts = problem.parts();
-  const auto side = static_cast<std::size_t>(2 * reach_cells + 1);
+  const std::size_t side = 2 * static_cast<std::size_t>(reach_cells) + 1;
   std::vector<std::vector<std::int64_t>> before(parts + 1, std::vector<std::int64_t>(side * side, 0));
   for (std::size_t i = 0; i < parts; ++i) {
     const auto pose = poses.segment<3>(static_cast<Eigen::Index>(3 * i));
@@ -19,8 +19,9 @@ VectorXd break_worst_step(const SettleProblem& problem, VectorXd poses, int reac
     std::transform(before[i].begin(), before[i].end(), scores.begin(), before[i + 1].begin(), std::plus<>());
   }
   const auto offset = [&](std::size_t index) {
-    return Vector2d(static_cast<double>(index % side) - reach_cells,
-                    static_cast<double>(index / side) - reach_cells);
+    const auto col = static_cast<int>(index % side);
+    const auto row = static_cast<int>(index / side);
+    return Vector2d(col - reach_cells, row - reach_cells);
   };
   const auto best_of = [](const std::vector<std::int64_t>& scores) {
     return static_cast<std::size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin());

@@ -86,7 +86,7 @@ void SettleProblem::hold(std::size_t i, const VectorXd& poses, Linear& sum) cons
 }
 
 std::vector<std::int64_t> SettleProblem::scores_around(std::size_t i, const Vector3d& pose, int reach) const {
-  const auto side = static_cast<std::size_t>(2 * reach + 1);
+  const std::size_t side = 2 * static_cast<std::size_t>(reach) + 1;
   std::vector<std::int64_t> scores(side * side, 0);
   const GridMap& grid = map_.grid();
   const std::uint8_t* field = map_.field().data();

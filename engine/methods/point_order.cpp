@@ -1,0 +1,37 @@
+#include "engine/methods/point_order.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace landfall::internal {
+
+EndPoints most_telling_first(const EndPoints& points, SharedSearch& search, const HeadingGroups& groups,
+                             const std::vector<Node>& nodes) {
+  constexpr std::size_t most_sampled = 64;
+  using kernels::block_cells;
+  const std::size_t sampled = std::min(most_sampled, nodes.size());
+  std::vector<std::int32_t> index(points.size());
+  std::vector<std::int64_t> seen(points.size());  // sum of the windows' maxima
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const Node& node = nodes[i * nodes.size() / sampled];
+    const HeadingCells& cells =
+        search.heading_cells->at((groups.first(node.group) + groups.last(node.group)) / 2);
+    kernels::window_indices(search.planes, node.col * block_cells, node.row * block_cells, cells.col.data(),
+                            cells.row.data(), points.size(), index.data());
+    for (std::size_t p = 0; p < points.size(); ++p) seen[p] += search.planes.window_max[index[p]];
+  }
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return seen[a] < seen[b]; });
+  EndPoints ordered;
+  ordered.x_cells.reserve(points.size());
+  ordered.y_cells.reserve(points.size());
+  for (const std::size_t p : order) {
+    ordered.x_cells.push_back(points.x_cells[p]);
+    ordered.y_cells.push_back(points.y_cells[p]);
+  }
+  return ordered;
+}
+
+}  // namespace landfall::internal
