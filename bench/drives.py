@@ -10,7 +10,7 @@ from pathlib import Path
 import landfall
 from buildings import relocalize_all
 from landfall.pictures import draw_trajectory
-from landfall.relocalization import Answers, Question, tie_together
+from landfall.relocalization import CONSISTENT_HYPOTHESES, Answers, Question, tie_together
 from landfall.searching import search_options
 from landfall.windows import Composition, odometry, single_queries, time_windows, with_motion
 
@@ -28,9 +28,8 @@ def wean_hall(folder: Path, drive: str, picture: Path) -> dict:
     map = landfall.load_map(folder / "map.yaml")
     log = landfall.load_log(folder / f"{drive}.log.gz").scans
     queries = with_motion(log, time_windows(log, WINDOW_S, disjoint=True), WINDOW_MOTION_M)
-    question = Question(
-        [map], landfall.Anywhere(), search_options(), composition=Composition(WINDOW_MAX_SCANS)
-    )
+    options = search_options(max_hypotheses=CONSISTENT_HYPOTHESES)
+    question = Question([map], landfall.Anywhere(), options, composition=Composition(WINDOW_MAX_SCANS))
     answers, _ = relocalize_all(log, queries, question)
     T_odom_robot = odometry([log[query.last] for query in queries])
     numbers = {"windows": len(queries), "alone": _explained_and_agreeing(answers, T_odom_robot)}

@@ -65,7 +65,7 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
                              .share = share,
                              .map_index = 0,
                              .verification = {},
-                             .T_map_part = {},
+                             .ways_to_settle = {},
                              .hypothesis = {}});
     } else {
       found.log_rest = log_add(found.log_rest, log_prior + log_evidence(share, points));

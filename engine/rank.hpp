@@ -19,8 +19,8 @@ struct Mode {
   double share = 0.0;  // of the best imaginable score, at the refined pose
   int map_index = 0;
   Verification verification;
-  std::vector<Pose2> T_map_part;  // of a composite whose scans were settled
-  Hypothesis hypothesis;          // filled in by refine and verify
+  std::vector<std::vector<Pose2>> ways_to_settle;  // of a composite whose relative poses may be off
+  Hypothesis hypothesis;                           // filled in by refine and verify
 };
 
 // What one map has to say of one scan.

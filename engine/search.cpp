@@ -71,19 +71,28 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
     hypothesis.T_map_robot = refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
     mode.share = refined.share;
-    if (!query.scan.parts) return;
-    mode.T_map_part = settle(query.map, query.scan, hypothesis.T_map_robot);
-    hypothesis.T_map_robot = mode.T_map_part[query.scan.parts->reference];
+    if (query.scan.parts) mode.ways_to_settle = settle(query.map, query.scan, hypothesis.T_map_robot);
   });
+}
+
+// The way to settle that the map explains more of; the first where it is the same.
+void verify_settled(const Query& query, Mode& mode) {
+  mode.verification.explained = -1.0;
+  for (const std::vector<Pose2>& T_map_part : mode.ways_to_settle) {
+    const Pose2& T_map_robot = T_map_part[query.scan.parts->reference];
+    const Verification verification =
+        verify(query.map, remount(query.scan, T_map_part), std::span(&T_map_robot, 1)).front();
+    if (verification.explained <= mode.verification.explained) continue;
+    mode.verification = verification;
+    mode.hypothesis.T_map_robot = T_map_robot;
+  }
 }
 
 void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.verify_ms);
   if (query.scan.parts) {
-    for (Mode& mode : found.modes)
-      mode.verification =
-          verify(query.map, remount(query.scan, mode.T_map_part), std::span(&mode.hypothesis.T_map_robot, 1))
-              .front();
+    parallel_for(found.modes.size(), query.threads,
+                 [&](std::size_t i) { verify_settled(query, found.modes[i]); });
   } else {
     std::vector<Pose2> T_map_robot;
     for (const Mode& mode : found.modes) T_map_robot.push_back(mode.hypothesis.T_map_robot);

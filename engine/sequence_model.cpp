@@ -11,7 +11,7 @@ namespace {
 
 // Less probable hypotheses are not told apart by their own probability: about as often as this, the map has
 // changed where the robot is, and a scan is sure of another place.
-constexpr double least_probability = 0.01;
+constexpr double least_probability = 0.05;
 
 // A jump lands anywhere in the box around all hypotheses, at any heading and on any map.
 double log_jump_density(std::span<const SearchResult> results, double jump_probability) {

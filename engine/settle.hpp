@@ -12,12 +12,12 @@ namespace landfall::internal {
 // Relative poses are good to centimetres mostly, and now and then one is off by far more: along a corridor
 // two scans say nothing of each other, where the map would. From a composite's pose, all its scans are fitted
 // to the map at once by Gauss-Newton on their evidence (evidence.hpp), each held to its neighbours by
-// scan.parts->noise with a Cauchy density; before, the one step is broken, if any, whose two sides then fit
-// so much better that it pays.
+// scan.parts->noise with a Cauchy density.
 //
-// Returns T_map_robot of each of scan.parts, which must be there.
-std::vector<Pose2> settle(const PreparedState& map, const Scan& scan, const Pose2& T_map_robot);
-// The same from poses of the parts: the best of where several starts (at least one) lead.
+// T_map_robot of each of scan.parts, which must be there, and a second way where it pays to break one step
+// before: what rays say of the two must decide, since where a map is off much seems to pay.
+std::vector<std::vector<Pose2>> settle(const PreparedState& map, const Scan& scan, const Pose2& T_map_robot);
+// From poses of the parts: the best of where several starts (at least one) lead.
 std::vector<Pose2> settle(const PreparedState& map, const Scan& scan,
                           std::span<const std::vector<Pose2>> T_map_starts);
 

@@ -8,7 +8,8 @@ namespace landfall::internal {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-VectorXd break_worst_step(const SettleProblem& problem, VectorXd poses, int reach_cells) {
+std::optional<VectorXd> break_worst_step(const SettleProblem& problem, const VectorXd& poses,
+                                         int reach_cells) {
   constexpr double rare_nats = 8.0;  // where a map is off, corridors offer much by chance
   const std::size_t parts = problem.parts();
   const std::size_t side = 2 * static_cast<std::size_t>(reach_cells) + 1;
@@ -44,9 +45,11 @@ VectorXd break_worst_step(const SettleProblem& problem, VectorXd poses, int reac
     left = offset(u);
     right = offset(v);
   }
-  for (std::size_t i = 0; broken > 0 && i < parts; ++i)
-    poses.segment<2>(static_cast<Eigen::Index>(3 * i)) += i < broken ? left : right;
-  return poses;
+  if (broken == 0) return std::nullopt;
+  VectorXd apart = poses;
+  for (std::size_t i = 0; i < parts; ++i)
+    apart.segment<2>(static_cast<Eigen::Index>(3 * i)) += i < broken ? left : right;
+  return apart;
 }
 
 }  // namespace landfall::internal

@@ -26,6 +26,7 @@ from landfall.windows import Composition, Query, compose, odometry
 
 CHUNK_S = 1.0  # work between two looks at the clock: the bar moves and Ctrl-C is answered
 MAX_CHUNK = 4096
+CONSISTENT_HYPOTHESES = 20  # to choose among, at least
 
 
 @dataclass

@@ -38,7 +38,7 @@ from landfall.outputs import (
     write_trajectory,
 )
 from landfall.progress import progress_bar
-from landfall.relocalization import Answers, Question, relocalize, tie_together
+from landfall.relocalization import CONSISTENT_HYPOTHESES, Answers, Question, relocalize, tie_together
 from landfall.searching import search_options
 from landfall.windows import (
     Composition,
@@ -49,8 +49,6 @@ from landfall.windows import (
     time_windows,
     with_motion,
 )
-
-CONSISTENT_HYPOTHESES = 20  # to choose among, at least
 
 
 def run(
