@@ -55,13 +55,13 @@ TEST(Consistent, AWholeLogOutweighsItsFirstScan) {
 TEST(Consistent, AKidnappedRobotJumps) {
   std::vector<SearchResult> results;
   std::vector<Pose2> T_odom_robot;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < 24; ++i) {
     const Pose2 without_jump{1.0 * i, 0.0, 0.0};
-    const Pose2 truth = i < 8 ? without_jump : Pose2{20.0, 50.0, 2.0} * without_jump;
+    const Pose2 truth = i < 12 ? without_jump : Pose2{20.0, 50.0, 2.0} * without_jump;
     results.push_back(result_of({at(truth, 0.99), at(without_jump, 0.002)}));
     T_odom_robot.push_back(in_odometry(without_jump));
   }
-  EXPECT_EQ(consistent(results, T_odom_robot), (std::vector<int>(16, 0)));
+  EXPECT_EQ(consistent(results, T_odom_robot), (std::vector<int>(24, 0)));
 }
 
 TEST(Consistent, ScansWithoutHypothesesAreBridged) {
