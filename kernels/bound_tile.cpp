@@ -29,7 +29,7 @@ using WordTag = hn::Repartition<std::uint16_t, ByteTag>;
 // First bytes of the points' tiles.
 void TileOffsets(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row,
                  std::int32_t begin, std::int32_t end, std::int32_t* HWY_RESTRICT offset) {
-  const hn::ScalableTag<std::int32_t> d;
+  const hn::CappedTag<std::int32_t, point_padding> d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const auto zero = hn::Zero(d);
   const auto first_col = hn::Set(d, tile_col);

@@ -47,6 +47,12 @@ std::int64_t CoarseBounds::compute(int first, int last) {
   unbounded_.resize(count);
   parallel_for(count, level_.query.threads, [&](std::size_t g) {
     const int group = first + static_cast<int>(g);
+    unbounded_[g] = 0;
+    if (level_.query.out_of_time()) {
+      std::fill_n(largest_.begin() + static_cast<std::ptrdiff_t>(g * layout.size()), layout.size(),
+                  std::uint16_t{0});
+      return;
+    }
     GroupPoints points;
     points.build(level_.query.points, level_.query.lattice, level_.table, level_.groups.first(group),
                  level_.groups.last(group));

@@ -162,6 +162,27 @@ def test_align_recovers_relative_poses(scans):
         assert landfall.angle_distance(found.theta_rad, truth.theta_rad) < 0.03
 
 
+def test_composites_whose_poses_may_be_off_settle(prepared, scans):
+    wrong = [landfall.Pose2(0.3, 0.2, 0.0) * pose for pose in POSES[2:5]] + POSES[5:7]
+    taken_as_given = landfall.search(prepared, None, landfall.merge(scans[2:7], wrong))
+    noise = landfall.RelativePoseNoise(translation_m=0.03, rotation_rad=0.01)
+    mended = landfall.search(prepared, None, landfall.merge(scans[2:7], wrong, noise=noise))
+    assert close(mended.hypotheses[0].T_map_robot, POSES[6])
+    assert mended.hypotheses[0].explained > taken_as_given.hypotheses[0].explained + 0.1
+    with pytest.raises(landfall.InvalidArgument, match="rotation_rad is -1"):
+        landfall.merge(scans[2:7], wrong, noise=landfall.RelativePoseNoise(rotation_rad=-1.0))
+
+
+def test_polish_moves_the_chosen_to_where_all_fit(prepared, scans):
+    results = landfall.search(prepared, None, scans)
+    polished = landfall.polish([prepared], scans, results, [0] * 12)
+    assert all(close(r.hypotheses[0].T_map_robot, truth) for r, truth in zip(polished, POSES, strict=True))
+    untouched = landfall.polish([prepared], scans, results, [-1] * 12)
+    assert [r.hypotheses[0].T_map_robot for r in untouched] == [r.hypotheses[0].T_map_robot for r in results]
+    with pytest.raises(landfall.InvalidArgument, match="11 choices"):
+        landfall.polish([prepared], scans, results, [0] * 11)
+
+
 def test_simulated_ranges_are_exact(plan, laser):
     """From (0.8, 2.2) along +x: the wall x = 4.6 from y = 3 is above; x = 8 is hit at 7.2 m."""
     ranges = landfall.simulate_ranges(landfall.PreparedMap(plan), laser, [(0.8, 2.2, 0.0)])
