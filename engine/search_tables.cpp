@@ -153,11 +153,11 @@ WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_c
 }
 
 BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells,
-                            int block_cells) {
-  const int half = block_cells / BoundTable::phases;
+                            int cells_a_block) {
+  const int half = cells_a_block / BoundTable::phases;
   const int cols = divide_up(width_cells, half);
   const int rows = divide_up(height_cells, half);
-  return {reduce(field, width_cells, height_cells, half, cols, rows), cols, rows, block_cells};
+  return {reduce(field, width_cells, height_cells, half, cols, rows), cols, rows, cells_a_block};
 }
 
 }  // namespace landfall::internal

@@ -62,6 +62,6 @@ struct WindowTables {
 
 WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells);
 BoundTable make_bound_table(std::span<const std::uint8_t> field, int width_cells, int height_cells,
-                            int block_cells);
+                            int cells_a_block);
 
 }  // namespace landfall::internal
