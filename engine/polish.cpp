@@ -1,8 +1,10 @@
+#include <optional>
 #include <string>
 
 #include "engine/parallel.hpp"
 #include "engine/sequence_model.hpp"
 #include "engine/settle.hpp"
+#include "engine/verify.hpp"
 #include "landfall/consistent.hpp"
 #include "landfall/error.hpp"
 
@@ -16,7 +18,7 @@ constexpr std::size_t reach = 2;  // neighbours on either side
 class Polisher {
  public:
   Polisher(std::span<const PreparedMap> maps, std::span<const Scan> scans,
-           const std::vector<SearchResult>& results, std::span<const int> choice,
+           std::span<const SearchResult> results, std::span<const int> choice,
            const ConsistentOptions& options)
       : maps_(maps),
         scans_(scans),
@@ -25,13 +27,13 @@ class Polisher {
         options_(options),
         model_(results, options) {}
 
-  // T_map_robot of a scan that has a choice.
-  [[nodiscard]] Pose2 polished(std::size_t here) const {
+  // Where a scan that has a choice fits best among its neighbours; none: it stays.
+  [[nodiscard]] std::optional<Pose2> T_map_polished(std::size_t here) const {
     std::size_t first = here;
     while (first > 0 && here - first < reach && are_tied(first - 1, first)) --first;
     std::size_t last = here;
     while (last + 1 < scans_.size() && last - here < reach && are_tied(last, last + 1)) ++last;
-    if (first == last || scans_[here].parts) return chosen(here).T_map_robot;
+    if (first == last || scans_[here].parts) return std::nullopt;
     const std::span<const Scan> window = scans_.subspan(first, last - first + 1);
     const std::vector<Pose2> T_here_robot =
         align(window, here - first, {.odometry = options_.odometry, .threads = 1});
@@ -43,8 +45,11 @@ class Polisher {
       std::vector<Pose2>& rigid = starts.emplace_back();
       for (const Pose2& T_here_other : T_here_robot) rigid.push_back(T_map_here * T_here_other);
     }
-    const PreparedMap& map = maps_[static_cast<std::size_t>(chosen(here).map_index)];
-    return settle(map.state(), composite, starts)[here - first];
+    return settle(SettleProblem(map_of(here), composite), starts)[here - first];
+  }
+
+  [[nodiscard]] const PreparedState& map_of(std::size_t i) const {
+    return maps_[static_cast<std::size_t>(chosen(i).map_index)].state();
   }
 
  private:
@@ -60,7 +65,7 @@ class Polisher {
 
   std::span<const PreparedMap> maps_;
   std::span<const Scan> scans_;
-  const std::vector<SearchResult>& results_;
+  std::span<const SearchResult> results_;
   std::span<const int> choice_;
   const ConsistentOptions& options_;
   SequenceModel model_;
@@ -69,7 +74,7 @@ class Polisher {
 }  // namespace
 
 std::vector<SearchResult> polish(std::span<const PreparedMap> maps, std::span<const Scan> scans,
-                                 std::vector<SearchResult> results, std::span<const int> choice,
+                                 std::span<const SearchResult> results, std::span<const int> choice,
                                  const ConsistentOptions& options, int threads) {
   check_sequence("polish", maps, scans, results);
   if (choice.size() != results.size())
@@ -81,15 +86,17 @@ std::vector<SearchResult> polish(std::span<const PreparedMap> maps, std::span<co
       throw Error(ErrorCode::invalid_argument,
                   "polish: choice " + std::to_string(i) + " is " + std::to_string(choice[i]) + " of " +
                       std::to_string(results[i].hypotheses.size()) + " hypotheses");
+  std::vector<SearchResult> polished(results.begin(), results.end());
   const Polisher polisher(maps, scans, results, choice, options);
-  std::vector<Pose2> T_map_robot(results.size());
   parallel_for(results.size(), threads, [&](std::size_t i) {
-    if (choice[i] >= 0) T_map_robot[i] = polisher.polished(i);
+    if (choice[i] < 0) return;
+    const std::optional<Pose2> T_map_robot = polisher.T_map_polished(i);
+    if (!T_map_robot) return;
+    Hypothesis& chosen = polished[i].hypotheses[static_cast<std::size_t>(choice[i])];
+    chosen.T_map_robot = *T_map_robot;
+    chosen.explained = verify(polisher.map_of(i), scans[i], std::span(&*T_map_robot, 1)).front().explained;
   });
-  for (std::size_t i = 0; i < results.size(); ++i)
-    if (choice[i] >= 0)
-      results[i].hypotheses[static_cast<std::size_t>(choice[i])].T_map_robot = T_map_robot[i];
-  return results;
+  return polished;
 }
 
 }  // namespace landfall

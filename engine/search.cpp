@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "engine/methods/table.hpp"
@@ -62,6 +63,8 @@ Proposal propose(const Query& query, const Method& method, SearchResult& result)
 
 void refine_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.refine_ms);
+  std::optional<SettleProblem> problem;
+  if (query.scan.parts) problem.emplace(query.map, query.scan);
   parallel_for(found.modes.size(), query.threads, [&](std::size_t i) {
     Mode& mode = found.modes[i];
     Hypothesis& hypothesis = mode.hypothesis;
@@ -71,7 +74,7 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
     hypothesis.T_map_robot = refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
     mode.share = refined.share;
-    if (query.scan.parts) mode.ways_to_settle = settle(query.map, query.scan, hypothesis.T_map_robot);
+    if (problem) mode.ways_to_settle = settle(*problem, hypothesis.T_map_robot);
   });
 }
 

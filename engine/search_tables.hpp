@@ -23,7 +23,6 @@ class BoundTable {
   BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, int half_rows, int block_cells);
 
   [[nodiscard]] int block_cells() const { return block_cells_; }
-  [[nodiscard]] int half_cells() const { return block_cells_ / phases; }
   // Window size of index i in half blocks, and the first index that covers `halves` of them; -1: none.
   static int window_halves(int index);
   static int window_index(int halves);

@@ -45,25 +45,22 @@ Optimum descend(const SettleProblem& problem, VectorXd poses) {
 
 }  // namespace
 
-std::vector<std::vector<Pose2>> settle(const PreparedState& map, const Scan& scan, const Pose2& T_map_robot) {
+std::vector<std::vector<Pose2>> settle(const SettleProblem& problem, const Pose2& T_map_robot) {
   constexpr double farthest_off_m = 0.5;
   constexpr double most_cells = 20.0;
-  const SettleProblem problem(map, scan);
   std::vector<Pose2> T_map_start;
-  for (const Pose2& T_reference_robot : scan.parts->T_reference_robot)
+  for (const Pose2& T_reference_robot : problem.T_reference_robot())
     T_map_start.push_back(T_map_robot * T_reference_robot);
   const VectorXd whole = problem.in_cells(T_map_start);
   std::vector<std::vector<Pose2>> ways{problem.in_metres(descend(problem, whole).poses)};
   const auto reach =
-      static_cast<int>(std::lround(std::min(most_cells, farthest_off_m / map.grid().resolution_m)));
+      static_cast<int>(std::lround(std::min(most_cells, farthest_off_m / problem.resolution_m())));
   if (const std::optional<VectorXd> broken = break_worst_step(problem, whole, reach))
     ways.push_back(problem.in_metres(descend(problem, *broken).poses));
   return ways;
 }
 
-std::vector<Pose2> settle(const PreparedState& map, const Scan& scan,
-                          std::span<const std::vector<Pose2>> T_map_starts) {
-  const SettleProblem problem(map, scan);
+std::vector<Pose2> settle(const SettleProblem& problem, std::span<const std::vector<Pose2>> T_map_starts) {
   Optimum best{.poses = {}, .cost = std::numeric_limits<double>::infinity()};
   for (const std::vector<Pose2>& T_map_start : T_map_starts) {
     Optimum found = descend(problem, problem.in_cells(T_map_start));

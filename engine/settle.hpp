@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/prepared_state.hpp"
+#include "engine/settle/problem.hpp"
 #include "landfall/scan.hpp"
 
 namespace landfall::internal {
@@ -14,12 +14,11 @@ namespace landfall::internal {
 // to the map at once by Gauss-Newton on their evidence (evidence.hpp), each held to its neighbours by
 // scan.parts->noise with a Cauchy density.
 //
-// T_map_robot of each of scan.parts, which must be there, and a second way where it pays to break one step
-// before: what rays say of the two must decide, since where a map is off much seems to pay.
-std::vector<std::vector<Pose2>> settle(const PreparedState& map, const Scan& scan, const Pose2& T_map_robot);
+// T_map_robot of each part, and a second way where it pays to break one step before: what rays say of the two
+// must decide, since where a map is off much seems to pay.
+std::vector<std::vector<Pose2>> settle(const SettleProblem& problem, const Pose2& T_map_robot);
 // From poses of the parts: the best of where several starts (at least one) lead.
-std::vector<Pose2> settle(const PreparedState& map, const Scan& scan,
-                          std::span<const std::vector<Pose2>> T_map_starts);
+std::vector<Pose2> settle(const SettleProblem& problem, std::span<const std::vector<Pose2>> T_map_starts);
 
 // The composite with its scans where they settled: T_map_part as from settle(), seen from the reference.
 Scan remount(const Scan& scan, const std::vector<Pose2>& T_map_part);

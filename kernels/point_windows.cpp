@@ -11,14 +11,6 @@
 #include "kernels/isa.hpp"
 #include "kernels/point_windows.hpp"
 
-namespace landfall::kernels {
-#ifndef LANDFALL_POINT_WINDOWS_ROUNDING
-#define LANDFALL_POINT_WINDOWS_ROUNDING
-// Far above double's error at a million cells.
-inline constexpr double window_rounding = 1e-6;
-#endif
-}  // namespace landfall::kernels
-
 HWY_BEFORE_NAMESPACE();
 namespace landfall::kernels {
 namespace HWY_NAMESPACE {

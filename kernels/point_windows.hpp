@@ -13,6 +13,9 @@ struct Turn {
   double sin_half = 0.0;  // 1 where half_rad is beyond a quarter turn: every direction is met
   double cos_half = 1.0;
 };
+// By so much windows are wider than they must be: far above double's error at a million cells.
+inline constexpr double window_rounding = 1e-6;
+
 struct WindowGrid {
   std::int32_t width_cells = 0;  // of the map
   std::int32_t height_cells = 0;

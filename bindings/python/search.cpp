@@ -79,11 +79,12 @@ void bind_search(nb::module_& module) {
   module.def(
       "polish",
       [](const std::vector<PreparedMap>& maps, const std::vector<Scan>& scans,
-         std::vector<SearchResult> results, const std::vector<int>& choice,
-         int threads) { return polish(maps, scans, std::move(results), choice, {}, threads); },
+         const std::vector<SearchResult>& results, const std::vector<int>& choice,
+         int threads) { return polish(maps, scans, results, choice, {}, threads); },
       "maps"_a, "scans"_a, "results"_a, "choice"_a, "threads"_a = 0, nb::call_guard<nb::gil_scoped_release>(),
       "The results with the hypotheses that consistent() chose moved to where each scan and its neighbours,\n"
-      "aligned, fit the map best together. Composite scans stay. Raises InvalidArgument.");
+      "aligned, fit the map best together, and what the map explains from there; scores, covariances and\n"
+      "probabilities stay, and so do composite scans. Raises InvalidArgument.");
 
   module.def(
       "methods",

@@ -9,7 +9,7 @@
 namespace landfall::internal {
 
 // The same points, first those that fall short of a wall most in a sample of the nodes: a bound that adds
-// them up excludes most nodes after a few.
+// them up excludes most nodes after a few. Without the beams' own order.
 EndPoints most_telling_first(const EndPoints& points, SharedSearch& search, const HeadingGroups& groups,
                              const std::vector<Node>& nodes);
 

@@ -18,7 +18,8 @@ constexpr double least_sigma_rad = 1e-3;
 
 }  // namespace
 
-SettleProblem::SettleProblem(const PreparedState& map, const Scan& scan) : map_(map) {
+SettleProblem::SettleProblem(const PreparedState& map, const Scan& scan)
+    : map_(map), T_reference_robot_(scan.parts->T_reference_robot) {
   const ScanParts& parts = *scan.parts;
   const double resolution_m = map.grid().resolution_m;
   std::size_t beam = 0;

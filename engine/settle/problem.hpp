@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/end_points.hpp"
@@ -15,7 +16,7 @@ namespace landfall::internal {
 // Poses are (x_cells, y_cells, theta_rad) in the grid's frame, three rows a part.
 class SettleProblem {
  public:
-  // scan.parts must be there.
+  // scan.parts must be there; map and scan outlive this.
   SettleProblem(const PreparedState& map, const Scan& scan);
 
   struct Linear {
@@ -34,6 +35,8 @@ class SettleProblem {
   [[nodiscard]] double cost_of_step(double off_squared_cells) const;
 
   [[nodiscard]] std::size_t parts() const { return points_.size(); }
+  [[nodiscard]] std::span<const Pose2> T_reference_robot() const { return T_reference_robot_; }
+  [[nodiscard]] double resolution_m() const { return map_.grid().resolution_m; }
   [[nodiscard]] Eigen::VectorXd in_cells(const std::vector<Pose2>& T_map_part) const;
   [[nodiscard]] std::vector<Pose2> in_metres(const Eigen::VectorXd& poses) const;
 
@@ -43,6 +46,7 @@ class SettleProblem {
   void hold(std::size_t i, const Eigen::VectorXd& poses, Linear& sum) const;
 
   const PreparedState& map_;
+  std::span<const Pose2> T_reference_robot_;  // the scan's own
   std::vector<EndPoints> points_;
   std::vector<Eigen::Vector3d> steps_;
   Eigen::Vector3d weight_;

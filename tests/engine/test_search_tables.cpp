@@ -64,7 +64,7 @@ TEST(BoundTable, HoldsTheQuantisedMaximumOfEveryWindow) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Field field = random_field(seed);
     const BoundTable table = internal::make_bound_table(field.values, field.width, field.height, block_cells);
-    const int half = table.half_cells();
+    const int half = table.block_cells() / BoundTable::phases;
     for (int index = 0; index < BoundTable::window_sizes; ++index) {
       const int size = half * BoundTable::window_halves(index);
       for (int row_half = -size / half - 2; row_half <= field.height / half + 2; ++row_half) {

@@ -51,7 +51,9 @@ TEST_F(Settle, EveryScanFindsItsPlace) {
   for (std::size_t step = 1; step < 5; ++step) {
     SCOPED_TRACE(step);
     const Scan composite = composite_off(step, {0.06, -0.05, 0.01}, aligned_noise);
-    expect_true(internal::settle(map.state(), composite, Pose2{0.02, 0.02, 0.005} * T_map_robot[4]).front(),
+    expect_true(internal::settle(internal::SettleProblem(map.state(), composite),
+                                 Pose2{0.02, 0.02, 0.005} * T_map_robot[4])
+                    .front(),
                 0.08);
   }
 }
@@ -61,7 +63,8 @@ TEST_F(Settle, OneStepMayBeFarOff) {
     SCOPED_TRACE(step);
     const Scan composite = composite_off(step, {0.32, 0.18, 0.0}, aligned_noise);
     // The composite alone would stand somewhere between.
-    const auto ways = internal::settle(map.state(), composite, Pose2{-0.15, -0.1, 0.0} * T_map_robot[4]);
+    const auto ways = internal::settle(internal::SettleProblem(map.state(), composite),
+                                       Pose2{-0.15, -0.1, 0.0} * T_map_robot[4]);
     expect_true(ways.back(), 0.08);
   }
 }
@@ -71,13 +74,14 @@ TEST_F(Settle, TheBestOfSeveralStartsWins) {
   std::vector<std::vector<Pose2>> starts{T_map_robot, T_map_robot, T_map_robot};
   for (Pose2& pose : starts[0]) pose.x_m += 1.0;
   for (Pose2& pose : starts[2]) pose.y_m -= 0.8;
-  expect_true(internal::settle(map.state(), composite, starts), 0.06);
+  expect_true(internal::settle(internal::SettleProblem(map.state(), composite), starts), 0.06);
 }
 
 TEST_F(Settle, ScansWithoutEchoesStayWhereTheirNeighboursAre) {
   std::fill(scans[2].ranges_m.begin(), scans[2].ranges_m.end(), 30.0F);
   const Scan composite = composite_off(0, {}, aligned_noise);
-  expect_true(internal::settle(map.state(), composite, T_map_robot[4]).front(), 0.06);
+  expect_true(internal::settle(internal::SettleProblem(map.state(), composite), T_map_robot[4]).front(),
+              0.06);
 }
 
 TEST_F(Settle, RemountedBeamsEndWhereTheirScansSeeThem) {
@@ -116,6 +120,8 @@ TEST_F(Settle, PolishedPosesFitTogether) {
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_LT(translation_distance(polished[i].hypotheses[1].T_map_robot, T_map_robot[i]), 0.06) << i;
     EXPECT_EQ(polished[i].hypotheses[0].T_map_robot, results[i].hypotheses[0].T_map_robot) << i;
+    EXPECT_GT(polished[i].hypotheses[1].explained, 0.95) << i;  // of where it is now
+    EXPECT_EQ(polished[i].hypotheses[0].explained, 0.0) << i;
   }
   const auto on_one_thread = polish(std::span(&map, 1), scans, results, choice, {}, 1);
   for (std::size_t i = 0; i < 5; ++i)

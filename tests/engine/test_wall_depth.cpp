@@ -33,6 +33,13 @@ TEST(WallDepth, AnEchoFromBehindAWallDoesNot) {
     EXPECT_FALSE(ends_within_wall(thick_walls(), eastward, face_m, range_m)) << range_m;
 }
 
+// Less than half a cell is looked at no closer: what counts is where the stretch ends.
+TEST(WallDepth, AShortStretchEndsInTheWallOrNot) {
+  EXPECT_TRUE(ends_within_wall(thick_walls(), eastward, face_m, face_m + 0.02));
+  EXPECT_FALSE(ends_within_wall(thick_walls(), eastward, 1.39, 1.42));
+  EXPECT_FALSE(ends_within_wall(thick_walls(), eastward, 0.5, 0.52));
+}
+
 TEST(WallDepth, SolidsAreNotEntered) {
   const Pose2 before_the_block{3.0, 1.0, 0.0};
   EXPECT_TRUE(ends_within_wall(thick_walls(), before_the_block, face_m, 1.25));

@@ -31,10 +31,11 @@ std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<co
 
 // The results with their chosen hypotheses moved to where each scan and up to two neighbours on either side,
 // aligned, fit the map best together: a scan that says little along a corridor stands where its neighbours'
-// do. choice as from consistent(). Composite scans, and those that a jump parts from all others, stay.
-// Throws Error{invalid_argument} where follow() does, and for choices of another length or out of range.
+// do. `explained` is that of the new pose; score, covariance and probability stay. choice as from
+// consistent(). Composite scans, and those that a jump parts from all others, stay. Throws
+// Error{invalid_argument} where follow() does, and for choices of another length or out of range.
 std::vector<SearchResult> polish(std::span<const PreparedMap> maps, std::span<const Scan> scans,
-                                 std::vector<SearchResult> results, std::span<const int> choice,
+                                 std::span<const SearchResult> results, std::span<const int> choice,
                                  const ConsistentOptions& options = {}, int threads = 0);
 
 }  // namespace landfall

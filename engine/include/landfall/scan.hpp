@@ -48,7 +48,8 @@ void validate(const Scan& scan);
 // One scan with the beams of all of them, seen from scan `reference`'s robot frame and under its
 // stamp. T_common_robot[i] is where scan i was taken, in any frame common to all (such as odom).
 // Sensor noise: the largest of the sensors'. Relative poses are taken as given, unless `noise` says how far
-// they may be off: then each hypothesis of search has every scan where it fits the map best within that.
+// they may be off: then each hypothesis of search has every scan where it fits the map best within that, and
+// `explained` is of the scans there; score and covariance are of the composite as given.
 // Throws Error{invalid_argument} where sizes differ or are zero, and for noise that is negative or not
 // finite.
 Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference,
