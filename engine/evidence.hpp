@@ -8,8 +8,10 @@
 // buildings (bench/RESULTS.md, "Verdicts").
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace landfall::internal {
 
@@ -20,8 +22,22 @@ double evidence_slope(double share, std::size_t points);
 // What ray casting adds: the share that a beam seen through a wall costs, and one blocked earns back.
 inline constexpr double ray_share = 0.1;
 
-// What falls short of the best pose by more is not looked for, and weighs next to nothing.
-double rival_share(std::size_t points);
+// How much less than the best pose one may score and yet be looked for. By its likelihood, which must be at
+// least one in several hundred of the best's: a part of what the best one lacks to a perfect fit. At most a
+// fixed amount, which keeps searches with scans that fit badly within bounds.
+struct RivalMargin {
+  double most = 0.0;
+  double of_misfit = 1.0;
+  double worst_misfit = std::numeric_limits<double>::infinity();  // that of score 0
+
+  [[nodiscard]] std::int32_t at(std::int32_t best_score) const {
+    return static_cast<std::int32_t>(std::min(most, of_misfit * (worst_misfit - best_score)));
+  }
+};
+RivalMargin rival_margin(std::size_t points);
+// Of a second look (search.cpp).
+RivalMargin second_margin(std::size_t points);
+
 // What all the poses weigh, beside the best one, that are never looked at.
 inline constexpr double unseen_weight = 0.01;
 // Nats for a share of the beams that a rival explains more of than the best pose: field and rays disagree.

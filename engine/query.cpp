@@ -3,24 +3,13 @@
 #include <algorithm>
 #include <bit>
 
-#include "engine/evidence.hpp"
-
 namespace landfall::internal {
 
-std::int32_t rival_margin(std::size_t points) {
-  return static_cast<std::int32_t>(rival_share(points) * 255.0 * static_cast<double>(points));
+std::int32_t lowest_rival(std::int32_t best_score, const RivalMargin& margin) {
+  return std::max(1, best_score - margin.at(best_score));
 }
 
-std::int32_t second_margin(std::size_t points) {
-  constexpr double share = 0.25;
-  return static_cast<std::int32_t>(share * 255.0 * static_cast<double>(points));
-}
-
-std::int32_t lowest_rival(std::int32_t best_score, std::int32_t margin) {
-  return std::max(1, best_score - margin);
-}
-
-void keep_rivals(std::vector<Candidate>& candidates, std::int32_t margin) {
+void keep_rivals(std::vector<Candidate>& candidates, const RivalMargin& margin) {
   std::int32_t best = 0;
   for (const Candidate& candidate : candidates) best = std::max(best, candidate.score);
   const std::int32_t lowest = lowest_rival(best, margin);

@@ -8,6 +8,7 @@
 
 #include "engine/domain.hpp"
 #include "engine/end_points.hpp"
+#include "engine/evidence.hpp"
 #include "engine/lattice.hpp"
 #include "engine/prepared_state.hpp"
 #include "landfall/search.hpp"
@@ -23,7 +24,7 @@ struct Query {
   const Lattice& lattice;
   const Domain& domain;
   const SearchOptions& options;
-  std::int32_t margin = 0;  // how much less than the best a rival may score
+  RivalMargin margin{};
   int threads = 1;
   std::optional<Clock::time_point> deadline;
 
@@ -52,13 +53,10 @@ inline constexpr std::size_t max_candidates = std::size_t{1} << 16;
 
 // Poses that score less than this beside the best one cannot take a share of the probability that
 // matters; methods need not look for them. At least 1. See evidence.hpp for what a score is worth.
-std::int32_t lowest_rival(std::int32_t best_score, std::int32_t margin);
-// The margin for a scan of so many echoes, and that of a second look (search.cpp).
-std::int32_t rival_margin(std::size_t points);
-std::int32_t second_margin(std::size_t points);
+std::int32_t lowest_rival(std::int32_t best_score, const RivalMargin& margin);
 
 // Drops what lies below lowest_rival(best), sorts, cuts to max_candidates.
-void keep_rivals(std::vector<Candidate>& candidates, std::int32_t margin);
+void keep_rivals(std::vector<Candidate>& candidates, const RivalMargin& margin);
 
 // The best allowed pose of a block; score 0 where none scores.
 Candidate best_of_block(const std::int32_t* scores, std::uint64_t allowed, int heading, int block_row,

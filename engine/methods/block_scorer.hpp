@@ -38,7 +38,7 @@ struct SharedSearch {
   const Query& query;
   kernels::WindowPlanes planes;
   std::unique_ptr<HeadingCellsOnDemand> heading_cells;
-  std::int32_t margin = 0;
+  RivalMargin margin{};
   std::atomic<std::int32_t> best{0};
 
   // What a pose must score to be worth looking for.
