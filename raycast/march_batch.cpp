@@ -1,0 +1,144 @@
+#include "raycast/march_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace landfall::raycast {
+namespace {
+
+constexpr float below_one = 0x1.fffffep-1f;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float no_ray = -1.0f;
+// Floats hold a start this near to within 1/4096 of a cell.
+constexpr double near_cells = 2048.0;
+
+// std::floor is a call without SSE4, and keeps loops from being vectorised.
+std::int32_t floor_to_int(float value) {
+  const auto towards_zero = static_cast<std::int32_t>(value);
+  return towards_zero - (value < static_cast<float>(towards_zero) ? 1 : 0);
+}
+
+// Length at which a ray that starts outside of 0 <= coordinate < size comes in; 0: it is there.
+double length_to_slab(double at, double direction, double size) {
+  if (at >= 0.0 && at < size) return 0.0;
+  const double length = at < 0.0 ? -at / direction : (size - at) / direction;
+  return length >= 0.0 ? length : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+FanBeams::FanBeams(std::span<const Beam> beams, double resolution_m) {
+  for (std::size_t b = 0; b < beams.size(); ++b) {
+    if (beams[b].half_angle_rad > 0.0) continue;
+    index.push_back(b);
+    x.push_back(static_cast<float>(beams[b].x_m / resolution_m));
+    y.push_back(static_cast<float>(beams[b].y_m / resolution_m));
+    dx.push_back(static_cast<float>(std::cos(beams[b].theta_rad)));
+    dy.push_back(static_cast<float>(std::sin(beams[b].theta_rad)));
+    range_max.push_back(static_cast<float>(beams[b].range_max_m / resolution_m));
+    near_pose = near_pose && std::abs(x.back()) < near_cells && std::abs(y.back()) < near_cells;
+  }
+}
+
+void MarchBatch::place(std::size_t ray, double x, double y, float dx, float dy, float range_max) {
+  const double skipped = std::max(length_to_slab(x, dx, width_cells_), length_to_slab(y, dy, height_cells_));
+  const bool outside = skipped > 0.0;
+  range_max_[ray] = no_ray;
+  cell_[ray] = squares_.index(0, 0);
+  x_[ray] = y_[ray] = skipped_[ray] = 0.0f;
+  dx_[ray] = dx;
+  dy_[ray] = dy;
+  if (!(skipped <= range_max) || std::isinf(skipped)) return;
+  const double enter_x = x + (outside ? skipped * dx : 0.0);
+  const double enter_y = y + (outside ? skipped * dy : 0.0);
+  // Rounding may leave the point of entry on either side of the border, and only there.
+  constexpr double slack = 1e-3;
+  if (enter_x < -slack || enter_x > width_cells_ + slack || enter_y < -slack ||
+      enter_y > height_cells_ + slack)
+    return;
+  const int col = std::clamp(static_cast<int>(std::floor(enter_x)), 0, width_cells_ - 1);
+  const int row = std::clamp(static_cast<int>(std::floor(enter_y)), 0, height_cells_ - 1);
+  cell_[ray] = squares_.index(col, row);
+  x_[ray] = std::clamp(static_cast<float>(enter_x - col), 0.0f, below_one);
+  y_[ray] = std::clamp(static_cast<float>(enter_y - row), 0.0f, below_one);
+  skipped_[ray] = static_cast<float>(skipped);
+  range_max_[ray] = static_cast<float>(range_max - skipped);
+}
+
+void MarchBatch::add(double x, double y, float dx, float dy, float range_max) {
+  place(size_, x, y, dx, dy, range_max);
+  ++size_;
+}
+
+void MarchBatch::place_beam(std::size_t ray, const FanBeams& beams, std::size_t beam, const GridPose& pose) {
+  const double c = pose.c;
+  const double s = pose.s;
+  place(ray, pose.x + c * beams.x[beam] - s * beams.y[beam], pose.y + s * beams.x[beam] + c * beams.y[beam],
+        pose.c * beams.dx[beam] - pose.s * beams.dy[beam], pose.s * beams.dx[beam] + pose.c * beams.dy[beam],
+        beams.range_max[beam]);
+}
+
+void MarchBatch::add_fan(const FanBeams& beams, std::size_t first, std::size_t count, const GridPose& pose) {
+  const std::size_t at = size_;
+  size_ += count;
+  const bool within = pose.x >= 0.0 && pose.x < width_cells_ && pose.y >= 0.0 && pose.y < height_cells_;
+  if (!within || !beams.near_pose) {
+    for (std::size_t i = 0; i < count; ++i) place_beam(at + i, beams, first + i, pose);
+    return;
+  }
+  const auto pose_col = static_cast<std::int32_t>(pose.x);
+  const auto pose_row = static_cast<std::int32_t>(pose.y);
+  const auto x_in_cell = static_cast<float>(pose.x - pose_col);
+  const auto y_in_cell = static_cast<float>(pose.y - pose_row);
+  const std::int32_t row_cells = width_cells_ + 2;
+  std::array<std::int32_t, capacity> outside;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t b = first + i;
+    const float x = x_in_cell + (pose.c * beams.x[b] - pose.s * beams.y[b]);
+    const float y = y_in_cell + (pose.s * beams.x[b] + pose.c * beams.y[b]);
+    const std::int32_t from_col = floor_to_int(x);
+    const std::int32_t from_row = floor_to_int(y);
+    x_[at + i] = std::min(x - static_cast<float>(from_col), below_one);
+    y_[at + i] = std::min(y - static_cast<float>(from_row), below_one);
+    dx_[at + i] = pose.c * beams.dx[b] - pose.s * beams.dy[b];
+    dy_[at + i] = pose.s * beams.dx[b] + pose.c * beams.dy[b];
+    range_max_[at + i] = beams.range_max[b];
+    skipped_[at + i] = 0.0f;
+    const std::int32_t col = pose_col + from_col;
+    const std::int32_t row = pose_row + from_row;
+    cell_[at + i] = (row + 1) * row_cells + col + 1;
+    outside[i] = static_cast<std::int32_t>(col < 0) | static_cast<std::int32_t>(col >= width_cells_) |
+                 static_cast<std::int32_t>(row < 0) | static_cast<std::int32_t>(row >= height_cells_);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    if (outside[i] != 0) place_beam(at + i, beams, first + i, pose);
+}
+
+// Walls have no inside: a ray that starts in one meets the face where it comes out.
+float MarchBatch::leave_obstacle(std::size_t ray) const {
+  CellWalk walk(x_[ray], y_[ray], dx_[ray], dy_[ray]);
+  while (squares_.is_obstacle(cell_[ray] + walk.row() * (width_cells_ + 2) + walk.col())) walk.step();
+  return walk.entered() <= range_max_[ray] ? static_cast<float>(walk.entered()) : infinity;
+}
+
+std::span<const float> MarchBatch::march() {
+  const std::size_t count = size_;
+  while (size_ % kernels::march_batch != 0) add(0.0, 0.0, 1.0f, 0.0f, no_ray);
+  const kernels::Marches marches{.start_cell = cell_.data(),
+                                 .x = x_.data(),
+                                 .y = y_.data(),
+                                 .dx = dx_.data(),
+                                 .dy = dy_.data(),
+                                 .range_max = range_max_.data()};
+  kernels::march_rays(squares_.view(), marches, size_, range_.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (range_[i] == 0.0f && skipped_[i] == 0.0f && squares_.is_obstacle(cell_[i]))
+      range_[i] = leave_obstacle(i);
+    range_[i] += skipped_[i];
+  }
+  size_ = 0;
+  return std::span(range_).first(count);
+}
+
+}  // namespace landfall::raycast
