@@ -59,7 +59,10 @@ const WallMap& PreparedState::walls() const {
 }
 
 const raycast::Scene& PreparedState::scene() const {
-  return scene_.get([this] { return raycast::Scene(to_raycast(walls())); });
+  return scene_.get([this] {
+    return plan_ ? raycast::Scene(to_raycast(*plan_))
+                 : raycast::Scene(to_raycast(grid_), [this] { return to_raycast(walls()); });
+  });
 }
 
 std::shared_ptr<const BlockMask> PreparedState::free_mask(double robot_radius_m, int step_cells) const {

@@ -51,7 +51,7 @@ class PreparedState {
   // Blocks twice as large.
   [[nodiscard]] const BoundTable& coarse_bound_table() const;
   [[nodiscard]] const WallMap& walls() const;
-  // Walls in the map frame, ready for rays.
+  // The map, in its own frame, ready for rays: a plan by its walls, a grid in the way that is the fastest.
   [[nodiscard]] const raycast::Scene& scene() const;
   // Cells where a robot of this radius may stand, on every step_cells-th column and row.
   [[nodiscard]] std::shared_ptr<const BlockMask> free_mask(double robot_radius_m, int step_cells) const;

@@ -56,6 +56,18 @@ std::vector<float> simulate_ranges(const PreparedMap& map, const Sensor& sensor,
   return ranges_m;
 }
 
+std::string ray_caster(const PreparedMap& map, const Sensor& sensor) {
+  validate(sensor);
+  const raycast::Scene& scene = map.state().scene();
+  const auto is_cone = [](const Beam& beam) { return beam.half_angle_rad > 0.0; };
+  const bool cones = std::any_of(sensor.beams.begin(), sensor.beams.end(), is_cone);
+  const bool rays = !std::all_of(sensor.beams.begin(), sensor.beams.end(), is_cone);
+  std::string names(rays ? name(scene.way(raycast::Pattern::fan)) : "");
+  if (rays && cones) names += ", ";
+  if (cones) names += name(scene.way(raycast::Pattern::cones));
+  return names;
+}
+
 std::vector<Scan> simulate(const PreparedMap& map, std::shared_ptr<const Sensor> sensor,
                            std::span<const Pose2> T_map_robot, const SimulateOptions& options) {
   if (!sensor) throw Error(ErrorCode::invalid_argument, "simulate: no sensor");

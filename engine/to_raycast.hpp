@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "landfall/grid_map.hpp"
 #include "landfall/sensor.hpp"
 #include "landfall/wall_map.hpp"
-#include "raycast/scene.hpp"
+#include "raycast/values.hpp"
 
 namespace landfall::internal {
 
@@ -32,6 +33,15 @@ inline std::vector<raycast::Segment> to_raycast(const WallMap& map) {
     segments.push_back(
         {.ax_m = wall.a_map.x_m, .ay_m = wall.a_map.y_m, .bx_m = wall.b_map.x_m, .by_m = wall.b_map.y_m});
   return segments;
+}
+
+inline raycast::PlacedGrid to_raycast(const GridMap& map) {
+  return {.grid = {.cells = {reinterpret_cast<const std::uint8_t*>(map.cells.data()), map.cells.size()},
+                   .width_cells = map.width_cells,
+                   .height_cells = map.height_cells,
+                   .occupied = static_cast<std::uint8_t>(Occupancy::occupied)},
+          .resolution_m = map.resolution_m,
+          .T_frame_grid = to_raycast(map.T_map_grid)};
 }
 
 }  // namespace landfall::internal

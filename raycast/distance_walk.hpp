@@ -7,16 +7,9 @@
 #include <span>
 
 #include "raycast/free_squares.hpp"
-#include "raycast/scene.hpp"
+#include "raycast/values.hpp"
 
 namespace landfall::raycast {
-
-// A grid where it lies: lengths in metres, poses in the caller's frame.
-struct PlacedGrid {
-  Grid grid;
-  double resolution_m = 0.0;
-  Pose T_frame_grid{};
-};
 
 // Immutable after construction. Answers as Scene does over the grid's faces: a ray that starts within an
 // obstacle ends where it leaves that.

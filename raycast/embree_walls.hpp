@@ -7,7 +7,7 @@
 #include <span>
 
 #include "raycast/embree.hpp"
-#include "raycast/scene.hpp"
+#include "raycast/values.hpp"
 
 namespace landfall::raycast {
 

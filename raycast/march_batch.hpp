@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "raycast/free_squares.hpp"
-#include "raycast/scene.hpp"
+#include "raycast/values.hpp"
 
 namespace landfall::raycast {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raycast/embree_walls.hpp"
-#include "raycast/scene.hpp"
+#include "raycast/values.hpp"
 
 namespace landfall::raycast {
 

@@ -1,27 +1,19 @@
 #include "raycast/scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
 #include <mutex>
 #include <optional>
-#include <vector>
+#include <utility>
 
-#include "raycast/embree_walls.hpp"
-#include "raycast/ray_beams.hpp"
+#include "raycast/distance_walk.hpp"
 #include "raycast/segment_tree.hpp"
+#include "raycast/wall_trace.hpp"
 
 namespace landfall::raycast {
 namespace {
-
-Box bounds(std::span<const Segment> walls) {
-  if (walls.empty()) return {.min_x_m = 0.0, .min_y_m = 0.0, .max_x_m = 0.0, .max_y_m = 0.0};
-  Box box;
-  for (const Segment& wall : walls) box.add(wall);
-  return box;
-}
 
 Cone cone_from(const Pose& pose, const Beam& beam) {
   const double c = std::cos(pose.theta_rad);
@@ -33,87 +25,88 @@ Cone cone_from(const Pose& pose, const Beam& beam) {
           .range_max_m = beam.range_max_m};
 }
 
+bool is_cone(const Beam& beam) {
+  return beam.half_angle_rad > 0.0;
+}
+
 }  // namespace
 
 struct Scene::State {
-  State(std::span<const Segment> all_walls, const Box& box)
-      : center_x_m(0.5 * (box.min_x_m + box.max_x_m)),
-        center_y_m(0.5 * (box.min_y_m + box.max_y_m)),
-        walls(all_walls.begin(), all_walls.end()),
-        embree(all_walls, center_x_m, center_y_m) {}
+  State(const MapShape& map_shape, MakeWalls make) : shape(map_shape), make_walls(std::move(make)) {}
 
   const SegmentTree& segment_tree() const {
     std::call_once(tree_once, [this] {
-      tree.emplace(walls);
+      tree.emplace(make_walls());
       tree_bytes = tree->memory_bytes();
     });
     return *tree;
   }
-  void cast_ray_beams(const Pose& pose, const RayBeams& rays, std::span<float> ranges_m) const;
+  // Calls cast(way) with the way of the pattern.
+  template <typename Cast>
+  void with_way(Pattern pattern, const Cast& cast) const {
+    if (choose_way(shape, pattern) == Way::distance_walk)
+      cast(*walk);
+    else
+      cast(*trace);
+  }
 
-  double center_x_m;
-  double center_y_m;
-  std::vector<Segment> walls;
-  EmbreeWalls embree;
+  MapShape shape;
+  MakeWalls make_walls;
+  std::size_t kept_bytes = 0;
+  std::optional<DistanceWalk> walk;
+  std::optional<WallTrace> trace;
   // Built when the first cone is cast: most sensors have none.
   mutable std::once_flag tree_once;
   mutable std::optional<SegmentTree> tree;
   mutable std::atomic<std::size_t> tree_bytes = 0;
 };
 
-void Scene::State::cast_ray_beams(const Pose& pose, const RayBeams& rays, std::span<float> ranges_m) const {
-  const auto x_m = static_cast<float>(pose.x_m - center_x_m);
-  const auto y_m = static_cast<float>(pose.y_m - center_y_m);
-  const auto c = static_cast<float>(std::cos(pose.theta_rad));
-  const auto s = static_cast<float>(std::sin(pose.theta_rad));
-  std::array<float, packet_rays> lanes_m;
-  for (std::size_t first = 0; first < rays.size(); first += packet_rays) {
-    const std::size_t count = std::min(packet_rays, rays.size() - first);
-    const std::size_t p = first / packet_rays;
-    embree.trace(rays.packet_from(p, x_m, y_m, c, s), count, rays.coherence(p), lanes_m);
-    for (std::size_t i = 0; i < count; ++i) ranges_m[rays.beam_index(first + i)] = lanes_m[i];
+Scene::Scene(std::span<const Segment> walls)
+    : state_(std::make_unique<State>(
+          MapShape{}, [kept = std::vector<Segment>(walls.begin(), walls.end())] { return kept; })) {
+  state_->trace.emplace(walls);
+  state_->kept_bytes = walls.size_bytes();
+}
+
+Scene::Scene(const PlacedGrid& grid, MakeWalls make_faces)
+    : state_(std::make_unique<State>(
+          MapShape{.grid_cells = std::int64_t{grid.grid.width_cells} * grid.grid.height_cells},
+          std::move(make_faces))) {
+  for (const Pattern pattern : {Pattern::fan, Pattern::single_rays}) {
+    const Way chosen = way(pattern);
+    if (chosen == Way::distance_walk && !state_->walk) state_->walk.emplace(grid);
+    if (chosen == Way::embree && !state_->trace) state_->trace.emplace(state_->make_walls());
   }
 }
 
-Scene::Scene(std::span<const Segment> walls) : state_(std::make_unique<State>(walls, bounds(walls))) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
+Way Scene::way(Pattern pattern) const {
+  return choose_way(state_->shape, pattern);
+}
+
 void Scene::cast_fans(std::span<const Pose> poses, std::span<const Beam> beams,
                       std::span<float> ranges_m) const {
   assert(ranges_m.size() == poses.size() * beams.size());
-  const RayBeams rays(beams);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const std::span<float> pose_ranges_m = ranges_m.subspan(i * beams.size(), beams.size());
-    state_->cast_ray_beams(poses[i], rays, pose_ranges_m);
-    if (rays.size() == beams.size()) continue;
+  state_->with_way(Pattern::fan, [&](const auto& rays) { rays.cast_fans(poses, beams, ranges_m); });
+  if (std::none_of(beams.begin(), beams.end(), is_cone)) return;
+  const SegmentTree& tree = state_->segment_tree();
+  for (std::size_t i = 0; i < poses.size(); ++i)
     for (std::size_t b = 0; b < beams.size(); ++b)
-      if (beams[b].half_angle_rad > 0.0)
-        pose_ranges_m[b] =
-            static_cast<float>(state_->segment_tree().nearest_in_cone(cone_from(poses[i], beams[b])));
-  }
+      if (is_cone(beams[b]))
+        ranges_m[i * beams.size() + b] =
+            static_cast<float>(tree.nearest_in_cone(cone_from(poses[i], beams[b])));
 }
 
 void Scene::cast_rays(std::span<const Ray> rays, std::span<float> ranges_m) const {
-  assert(ranges_m.size() == rays.size());
-  RayPacket packet{};
-  for (std::size_t first = 0; first < rays.size(); first += packet_rays) {
-    const std::size_t count = std::min(packet_rays, rays.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Ray& ray = rays[first + i];
-      packet.x_m[i] = static_cast<float>(ray.x_m - state_->center_x_m);
-      packet.y_m[i] = static_cast<float>(ray.y_m - state_->center_y_m);
-      packet.dx[i] = ray.dx;
-      packet.dy[i] = ray.dy;
-      packet.range_max_m[i] = ray.range_max_m;
-    }
-    state_->embree.trace(packet, count, Coherence::incoherent, ranges_m.subspan(first, count));
-  }
+  state_->with_way(Pattern::single_rays, [&](const auto& way) { way.cast_rays(rays, ranges_m); });
 }
 
 std::size_t Scene::memory_bytes() const {
-  return state_->walls.capacity() * sizeof(Segment) + state_->embree.memory_bytes() + state_->tree_bytes;
+  return state_->kept_bytes + (state_->walk ? state_->walk->memory_bytes() : 0) +
+         (state_->trace ? state_->trace->memory_bytes() : 0) + state_->tree_bytes;
 }
 
 }  // namespace landfall::raycast

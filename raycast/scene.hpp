@@ -1,34 +1,17 @@
-// Walls -> a scene -> batches of ranges. Plain values in one frame of the caller's choice, metres and
-// radians. Coordinates are taken relative to the scene's centre before they become floats, so that maps
-// with origins kilometres away lose nothing.
+// A map -> a scene -> batches of ranges. Coordinates are taken relative to the scene's centre or to a grid's
+// cell before they become floats, so that maps with origins kilometres away lose nothing.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
+
+#include "raycast/choose_way.hpp"
+#include "raycast/values.hpp"
 
 namespace landfall::raycast {
-
-struct Segment {
-  double ax_m, ay_m, bx_m, by_m;
-};
-
-struct Pose {
-  double x_m, y_m, theta_rad;
-};
-
-// Mount in the frame of the pose it is cast from. A half-angle makes it a cone.
-struct Beam {
-  double x_m, y_m, theta_rad;
-  double half_angle_rad;
-  double range_max_m;
-};
-
-struct Ray {
-  double x_m, y_m;
-  float dx, dy;  // unit direction
-  float range_max_m;
-};
 
 // Immutable after construction; every const function is safe from any thread. It starts no threads.
 // Throws std::runtime_error where Embree does not come up, std::bad_alloc where memory runs out.
@@ -37,10 +20,19 @@ struct Ray {
 // ray that starts on a wall may or may not see it. No ray passes between walls that share an end point.
 class Scene {
  public:
+  using MakeWalls = std::function<std::vector<Segment>()>;
+
+  // A plan.
   explicit Scene(std::span<const Segment> walls);
+  // A grid, which is not needed afterwards. make_faces() gives the faces between its occupied cells and the
+  // others; it is called when a way first needs them.
+  Scene(const PlacedGrid& grid, MakeWalls make_faces);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
+
+  // How rays of the pattern are cast.
+  [[nodiscard]] Way way(Pattern pattern) const;
 
   // ranges_m[i * beams.size() + b]: beam b from poses[i]; +inf: nothing within its range_max_m.
   // Neighbouring beams are traced together, which pays where they point to similar directions.

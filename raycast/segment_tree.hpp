@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "raycast/scene.hpp"
+#include "raycast/values.hpp"
 #include "raycast/wedge.hpp"
 
 namespace landfall::raycast {

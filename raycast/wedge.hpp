@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "raycast/scene.hpp"
+#include "raycast/values.hpp"
 
 namespace landfall::raycast {
 

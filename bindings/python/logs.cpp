@@ -1,5 +1,6 @@
 // Scans from maps and maps from scans: simulation and mapping.
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
@@ -42,6 +43,9 @@ void bind_simulate(nb::module_& module) {
              "Noise-free ranges: (poses, beams) float32, +inf where nothing is hit within range_max_m.\n"
              "T_map_robot: a list of poses, or an array (poses, 3).");
   const SimulateOptions options;
+  module.def("ray_caster", &ray_caster, "map"_a, "sensor"_a, nb::call_guard<nb::gil_scoped_release>(),
+             "How this sensor's rays are cast over this map: \"distance_walk\" or \"embree\" for beams,\n"
+             "\"segment_tree\" for those with a half-angle, both where it has both. Raises InvalidArgument.");
   module.def("simulate", &simulated_scans, "map"_a, "sensor"_a, "T_map_robot"_a, nb::kw_only(),
              "noise"_a = options.noise, "seed"_a = options.seed,
              "One scan per pose, its T_map_robot set, with the sensor's noise.\n"

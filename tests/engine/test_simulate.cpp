@@ -55,6 +55,19 @@ TEST(SimulateRanges, ASonarSeesTheNearestPointOfItsCone) {
   EXPECT_NEAR(ranges_m[4], 0.3f, 1e-6);                    // turned by 45 degrees: the edge is head on
 }
 
+TEST(RayCaster, IsNamedByMapAndBeams) {
+  const PreparedMap grid(room);
+  const PreparedMap plan(WallMap{.walls = {{{0.0, 0.0}, {10.0, 0.0}}, {{10.0, 0.0}, {10.0, 5.0}}}});
+  Sensor sensor = four_beams();
+  EXPECT_EQ(ray_caster(grid, sensor), "distance_walk");
+  EXPECT_EQ(ray_caster(plan, sensor), "embree");
+  sensor.beams[1].half_angle_rad = 0.1;
+  EXPECT_EQ(ray_caster(grid, sensor), "distance_walk, segment_tree");
+  for (Beam& beam : sensor.beams) beam.half_angle_rad = 0.1;
+  EXPECT_EQ(ray_caster(plan, sensor), "segment_tree");
+  EXPECT_THROW(ray_caster(grid, Sensor{}), Error);
+}
+
 TEST(SimulateRanges, APlanIsSeenByItsOwnWalls) {
   const WallMap plan{
       .walls = {{{0.0, 0.0}, {10.0, 0.0}}, {{10.0, 0.0}, {10.0, 5.0}}, {{10.0, 5.0}, {0.0, 0.0}}}};

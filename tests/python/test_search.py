@@ -192,6 +192,14 @@ def test_simulated_ranges_are_exact(plan, laser):
     assert ranges[0, 180] == pytest.approx(3.4 + 0.8 * 0.8 / 4.6 - 2.2, abs=1e-3)
 
 
+def test_the_ray_caster_is_named_by_map_and_sensor(plan, laser):
+    grid = landfall.PreparedMap(landfall.PreparedMap(plan).grid)
+    sonar = landfall.make_fan(beams=4, first_rad=0.0, step_rad=1.0, range_max_m=5.0, half_angle_rad=0.1)
+    assert landfall.ray_caster(landfall.PreparedMap(plan), laser) == "embree"
+    assert landfall.ray_caster(grid, laser) == "distance_walk"
+    assert landfall.ray_caster(grid, sonar) == "segment_tree"
+
+
 def test_map_from_known_poses_finds_the_walls(scans):
     grid = landfall.map_from_known_poses(scans, resolution_m=0.1)
     row, col = grid.cell_of(8.05, 2.5)

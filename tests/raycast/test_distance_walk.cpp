@@ -1,5 +1,5 @@
-// The walk by free squares gives the range of the walk from cell to cell, and what Scene gives over the
-// grid's faces.
+// The walk by free squares gives the range of the walk from cell to cell, and that of Embree over the grid's
+// faces.
 #include "raycast/distance_walk.hpp"
 
 #include <gtest/gtest.h>
@@ -15,6 +15,7 @@
 #include "grid_oracle.hpp"
 #include "landfall/io.hpp"
 #include "landfall/wall_map.hpp"
+#include "raycast/wall_trace.hpp"
 
 namespace landfall {
 namespace {
@@ -23,9 +24,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr double pi = std::numbers::pi;
 
 raycast::DistanceWalk walk_over(const GridMap& map) {
-  return raycast::DistanceWalk({.grid = testing::grid_view(map),
-                                .resolution_m = map.resolution_m,
-                                .T_frame_grid = internal::to_raycast(map.T_map_grid)});
+  return raycast::DistanceWalk(internal::to_raycast(map));
 }
 
 raycast::Beam beam_at(double theta_rad, double range_max_m, double x_m = 0.0, double y_m = 0.0) {
@@ -164,13 +163,13 @@ TEST(DistanceWalkEqualsGridWalk, OnRealMaps) {
 }
 
 // From within walls as well.
-TEST(DistanceWalkEqualsScene, FromAnywhere) {
+TEST(DistanceWalkEqualsWallTrace, FromAnywhere) {
   std::mt19937 rng(9);
   int rays = 0;
   int differ = 0;
   for (int n = 0; n < 60; ++n) {
     const GridMap map = random_map(rng, 0.5, {.x_m = 3.0, .y_m = -2.0, .theta_rad = 0.1 * n});
-    const raycast::Scene scene(internal::to_raycast(to_walls(map)));
+    const raycast::WallTrace trace(internal::to_raycast(to_walls(map)));
     const raycast::DistanceWalk walk = walk_over(map);
     std::vector<raycast::Ray> from;
     for (int i = 0; i < 400; ++i) {
@@ -184,7 +183,7 @@ TEST(DistanceWalkEqualsScene, FromAnywhere) {
     std::vector<float> walked_m(from.size());
     std::vector<float> seen_m(from.size());
     walk.cast_rays(from, walked_m);
-    scene.cast_rays(from, seen_m);
+    trace.cast_rays(from, seen_m);
     for (std::size_t i = 0; i < from.size(); ++i, ++rays)
       if (walked_m[i] != seen_m[i] && !(std::abs(walked_m[i] - seen_m[i]) <= testing::range_tolerance_m))
         ++differ;

@@ -134,6 +134,39 @@ TEST(Scene, AnswersTheSameFromManyThreads) {
   for (const auto& answer : answers) EXPECT_EQ(answer, cast(scene, poses, beams));
 }
 
+// The ranges do not tell whether a scene was made from a grid or from its faces.
+TEST(Scene, AGridIsSeenAsItsFacesAre) {
+  const std::vector<std::uint8_t> cells{1, 1, 1, 1, 1,  //
+                                        1, 0, 0, 0, 1,  //
+                                        1, 0, 0, 0, 1,  //
+                                        1, 1, 1, 1, 1};
+  const std::vector<Segment> faces{{0.0, 3.0, 3.0, 3.0},  {3.0, 3.0, 3.0, 5.0},  // inside
+                                   {3.0, 5.0, 0.0, 5.0},  {0.0, 5.0, 0.0, 3.0},
+                                   {-1.0, 2.0, 4.0, 2.0}, {4.0, 2.0, 4.0, 6.0},  // outside
+                                   {4.0, 6.0, -1.0, 6.0}, {-1.0, 6.0, -1.0, 2.0}};
+  const Scene plan(faces);
+  int asked = 0;
+  const Scene grid({.grid = {.cells = cells, .width_cells = 5, .height_cells = 4},
+                    .resolution_m = 1.0,
+                    .T_frame_grid = {-1.0, 2.0, 0.0}},
+                   [&] {
+                     ++asked;
+                     return faces;
+                   });
+  EXPECT_EQ(plan.way(Pattern::fan), Way::embree);
+  EXPECT_EQ(grid.way(Pattern::fan), Way::distance_walk);
+  std::vector<Beam> beams;
+  for (int i = 0; i < 40; ++i) beams.push_back(ray_beam(0.11 + 0.157 * i));
+  const std::vector<Pose> poses{{0.5, 3.7, 0.3}, {2.3, 4.4, -2.0}, {-0.4, 3.6, 0.1}};  // the last in a wall
+  EXPECT_EQ(cast(grid, poses, beams).size(), 120u);
+  EXPECT_EQ(asked, 0);
+  beams[7].half_angle_rad = beams[23].half_angle_rad = 0.2;
+  const std::vector<float> by_cells_m = cast(grid, poses, beams);
+  const std::vector<float> by_walls_m = cast(plan, poses, beams);
+  for (std::size_t i = 0; i < by_cells_m.size(); ++i) EXPECT_NEAR(by_cells_m[i], by_walls_m[i], 1e-5) << i;
+  EXPECT_EQ(asked, 1);
+}
+
 TEST(Scene, CountsItsMemory) {
   EXPECT_GT(Scene(room_at(0.0, 0.0)).memory_bytes(), 4 * sizeof(Segment));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "landfall/prepared_map.hpp"
@@ -15,6 +16,12 @@ namespace landfall {
 // beam's range_max_m. A beam with a half-angle returns the nearest wall point in its cone, exactly.
 std::vector<float> simulate_ranges(const PreparedMap& map, const Sensor& sensor,
                                    std::span<const Pose2> T_map_robot);
+
+// How rays of this sensor are cast over this map, in simulation and in search's verification: "distance_walk"
+// (from one free square of a grid to the next) or "embree" (against walls) for beams, "segment_tree" for
+// those with a half-angle; both names, with a comma, where a sensor has both. The fastest for the map
+// (bench/RESULTS.md, Rays); ranges do not depend on it but for rounding.
+std::string ray_caster(const PreparedMap& map, const Sensor& sensor);
 
 struct SimulateOptions {
   bool noise = true;  // the sensor's range_noise_m and range_noise_relative, Gaussian
