@@ -49,19 +49,32 @@ def _rate(median: Median | None, unit: str) -> str:
 
 
 def ray_table(medians: Mapping[str, Median]) -> Table:
-    """M rays/s: a row per kind of ray, a column per place."""
-    by_place: dict[str, dict[str, Median]] = {}
+    """M rays/s: a row per pattern and way of casting, a column per place; the way that the engine chooses is
+    bold, with its share of the fastest way's rate where that is another."""
+    rates: dict[tuple[str, str, str], Median] = {}
     for name, median in medians.items():
-        place, kind = name.split("/", 1)
-        by_place.setdefault(place, {})[kind] = median
-    kinds = list(dict.fromkeys(kind for of_place in by_place.values() for kind in of_place))
-    rows = [["M rays/s", *by_place]]
-    for kind in kinds:
-        cells = [
-            _millions(place[kind].counters["rays/s"]) if kind in place else "-" for place in by_place.values()
-        ]
-        rows.append([kind, *cells])
+        place, pattern, way = name.split("/")
+        rates[place, pattern, way] = median
+    places = list(dict.fromkeys(place for place, _, _ in rates))
+    rows = [["M rays/s", "way", *places]]
+    for pattern in dict.fromkeys(pattern for _, pattern, _ in rates):
+        for way in dict.fromkeys(way for _, of, way in rates if of == pattern):
+            rows.append([pattern, way, *(_way_cell(rates, place, pattern, way) for place in places)])
     return rows
+
+
+def _way_cell(rates: Mapping[tuple[str, str, str], Median], place: str, pattern: str, way: str) -> str:
+    median = rates.get((place, pattern, way))
+    if median is None:
+        return "-"
+    rate = median.counters["rays/s"]
+    if "chosen" not in median.counters:
+        return _millions(rate)
+    fastest = max(
+        other.counters["rays/s"] for (at, of, _), other in rates.items() if (at, of) == (place, pattern)
+    )
+    share = f" ({100.0 * rate / fastest:.0f} % of the fastest)" if rate < fastest else ""
+    return f"**{_millions(rate)}**{share}"
 
 
 def search_table(medians: Mapping[str, Median]) -> Table:

@@ -87,3 +87,32 @@ def test_kernels_in_the_order_of_their_registration(module, tmp_path):
             [["kernel", "unit", "AVX2", "SCALAR"], ["tile", "M bytes/s", "300 (75 %)", "2.0"]],
         )
     }
+
+
+def test_the_chosen_way_is_bold_and_says_what_it_misses(module, tmp_path):
+    def median(name, family, rate, **counters):
+        entry = {
+            "name": name,
+            "run_name": name,
+            "aggregate_name": "median",
+            "cpu_time": 1.0,
+            "time_unit": "us",
+        }
+        return {**entry, "family_index": family, "rays/s": rate, **counters}
+
+    entries = [
+        median("hall/fan/embree", 0, 5e6),
+        median("hall/fan/walk", 1, 20e6, chosen=1.0),
+        median("hall/single/embree", 2, 4e6),
+        median("hall/single/walk", 3, 3e6, chosen=1.0),
+        median("plan/fan/embree", 4, 30e6, chosen=1.0),
+    ]
+    file = tmp_path / "bench_raycast.json"
+    file.write_text(json.dumps({"context": {"date": "2026-11-22T10:00"}, "benchmarks": entries}))
+    assert module("suite_tables").suite_sections(tmp_path)["raycast"][1] == [
+        ["M rays/s", "way", "hall", "plan"],
+        ["fan", "embree", "5.0", "**30.0**"],
+        ["fan", "walk", "**20.0**", "-"],
+        ["single", "embree", "4.0", "-"],
+        ["single", "walk", "**3.0** (75 % of the fastest)", "-"],
+    ]
