@@ -65,13 +65,16 @@ void DistanceWalk::cast_fans(std::span<const Pose> poses, std::span<const Beam> 
   const ToGrid to_grid(T_frame_grid_, resolution_m_);
   const FanBeams fan(beams, resolution_m_);
   const std::size_t rays = fan.index.size();
+  if (rays == 0) return;
   const auto m_per_cell = static_cast<float>(resolution_m_);
   MarchBatch batch(squares_, width_cells_, height_cells_);
-  std::size_t marched = 0;  // rays of all poses together, pose by pose
+  std::size_t pose_begin = 0, next = 0;  // where the next range of the batch goes
   const auto march = [&] {
     for (const float range : batch.march()) {
-      ranges_m[marched / rays * beams.size() + fan.index[marched % rays]] = m_per_cell * range;
-      ++marched;
+      ranges_m[pose_begin + fan.index[next]] = m_per_cell * range;
+      if (++next < rays) continue;
+      next = 0;
+      pose_begin += beams.size();
     }
   };
   for (const Pose& pose : poses) {

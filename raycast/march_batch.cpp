@@ -13,10 +13,44 @@ constexpr float no_ray = -1.0f;
 // Floats hold a start this near to within 1/4096 of a cell.
 constexpr double near_cells = 2048.0;
 
-// std::floor is a call without SSE4, and keeps loops from being vectorised.
+// The loops below are plain so that compilers vectorise them: fans are 1.3 to 1.6 times as fast as with
+// branches and divisions in them (bench_raycast). std::floor would be a call without SSE4.
 std::int32_t floor_to_int(float value) {
   const auto towards_zero = static_cast<std::int32_t>(value);
   return towards_zero - (value < static_cast<float>(towards_zero) ? 1 : 0);
+}
+
+void turn(const float* x, const float* y, float c, float s, std::size_t count, float* turned) {
+  for (std::size_t i = 0; i < count; ++i) turned[i] = c * x[i] - s * y[i];
+}
+
+// One coordinate of mounts on a pose: cell, and place within it.
+void split_axis(const float* x, const float* y, float c, float s, double pose, std::size_t count,
+                float* in_cell, std::int32_t* cell) {
+  const auto pose_cell = static_cast<std::int32_t>(pose);
+  const auto pose_in_cell = static_cast<float>(pose - pose_cell);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float at = pose_in_cell + (c * x[i] - s * y[i]);
+    const std::int32_t below = floor_to_int(at);
+    const float above = at - static_cast<float>(below);
+    in_cell[i] = above < below_one ? above : below_one;
+    cell[i] = pose_cell + below;
+  }
+}
+
+struct GridSize {
+  std::int32_t width_cells, height_cells;
+};
+
+// Whether all are within the grid.
+bool index_cells(const std::int32_t* cols, const std::int32_t* rows, GridSize size, std::size_t count,
+                 std::int32_t* index) {
+  std::int32_t outside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    index[i] = (rows[i] + 1) * (size.width_cells + 2) + cols[i] + 1;
+    outside |= cols[i] | rows[i] | (size.width_cells - 1 - cols[i]) | (size.height_cells - 1 - rows[i]);
+  }
+  return outside >= 0;  // the sign of any one that is negative
 }
 
 // Length at which a ray that starts outside of 0 <= coordinate < size comes in; 0: it is there.
@@ -87,32 +121,21 @@ void MarchBatch::add_fan(const FanBeams& beams, std::size_t first, std::size_t c
     for (std::size_t i = 0; i < count; ++i) place_beam(at + i, beams, first + i, pose);
     return;
   }
-  const auto pose_col = static_cast<std::int32_t>(pose.x);
-  const auto pose_row = static_cast<std::int32_t>(pose.y);
-  const auto x_in_cell = static_cast<float>(pose.x - pose_col);
-  const auto y_in_cell = static_cast<float>(pose.y - pose_row);
-  const std::int32_t row_cells = width_cells_ + 2;
-  std::array<std::int32_t, capacity> outside;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t b = first + i;
-    const float x = x_in_cell + (pose.c * beams.x[b] - pose.s * beams.y[b]);
-    const float y = y_in_cell + (pose.s * beams.x[b] + pose.c * beams.y[b]);
-    const std::int32_t from_col = floor_to_int(x);
-    const std::int32_t from_row = floor_to_int(y);
-    x_[at + i] = std::min(x - static_cast<float>(from_col), below_one);
-    y_[at + i] = std::min(y - static_cast<float>(from_row), below_one);
-    dx_[at + i] = pose.c * beams.dx[b] - pose.s * beams.dy[b];
-    dy_[at + i] = pose.s * beams.dx[b] + pose.c * beams.dy[b];
-    range_max_[at + i] = beams.range_max[b];
-    skipped_[at + i] = 0.0f;
-    const std::int32_t col = pose_col + from_col;
-    const std::int32_t row = pose_row + from_row;
-    cell_[at + i] = (row + 1) * row_cells + col + 1;
-    outside[i] = static_cast<std::int32_t>(col < 0) | static_cast<std::int32_t>(col >= width_cells_) |
-                 static_cast<std::int32_t>(row < 0) | static_cast<std::int32_t>(row >= height_cells_);
-  }
+  std::array<std::int32_t, capacity> cols, rows;
+  split_axis(beams.x.data() + first, beams.y.data() + first, pose.c, pose.s, pose.x, count, x_.data() + at,
+             cols.data());
+  split_axis(beams.x.data() + first, beams.y.data() + first, pose.s, -pose.c, pose.y, count, y_.data() + at,
+             rows.data());
+  turn(beams.dx.data() + first, beams.dy.data() + first, pose.c, pose.s, count, dx_.data() + at);
+  turn(beams.dx.data() + first, beams.dy.data() + first, pose.s, -pose.c, count, dy_.data() + at);
+  std::copy_n(beams.range_max.data() + first, count, range_max_.data() + at);
+  std::fill_n(skipped_.data() + at, count, 0.0f);
+  if (index_cells(cols.data(), rows.data(), {width_cells_, height_cells_}, count, cell_.data() + at)) return;
+  const auto is_outside = [&](std::size_t i) {
+    return cols[i] < 0 || cols[i] >= width_cells_ || rows[i] < 0 || rows[i] >= height_cells_;
+  };
   for (std::size_t i = 0; i < count; ++i)
-    if (outside[i] != 0) place_beam(at + i, beams, first + i, pose);
+    if (is_outside(i)) place_beam(at + i, beams, first + i, pose);
 }
 
 // Walls have no inside: a ray that starts in one meets the face where it comes out.
@@ -132,11 +155,10 @@ std::span<const float> MarchBatch::march() {
                                  .dy = dy_.data(),
                                  .range_max = range_max_.data()};
   kernels::march_rays(squares_.view(), marches, size_, range_.data());
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     if (range_[i] == 0.0f && skipped_[i] == 0.0f && squares_.is_obstacle(cell_[i]))
       range_[i] = leave_obstacle(i);
-    range_[i] += skipped_[i];
-  }
+  for (std::size_t i = 0; i < count; ++i) range_[i] += skipped_[i];
   size_ = 0;
   return std::span(range_).first(count);
 }

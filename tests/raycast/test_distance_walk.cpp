@@ -116,9 +116,11 @@ void compare_with_cells(const GridMap& map, int poses, double range_max_m, std::
   const raycast::DistanceWalk walk = walk_over(map);
   std::uniform_real_distribution<double> mount_m(-0.3, 0.3);
   std::vector<raycast::Beam> beams;
+  beams.reserve(90);
   for (int b = 0; b < 90; ++b)
     beams.push_back(beam_at(0.07 * b, range_max_m, b < 45 ? 0.0 : mount_m(rng), b < 45 ? 0.0 : mount_m(rng)));
   std::vector<raycast::Pose> at;
+  at.reserve(static_cast<std::size_t>(poses));
   for (int n = 0; n < poses; ++n) at.push_back(random_pose(rng, map, 0.1));
   std::vector<float> ranges_m(at.size() * beams.size());
   walk.cast_fans(at, beams, ranges_m);

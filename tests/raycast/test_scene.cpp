@@ -149,13 +149,14 @@ TEST(Scene, AGridIsSeenAsItsFacesAre) {
   const Scene grid({.grid = {.cells = cells, .width_cells = 5, .height_cells = 4},
                     .resolution_m = 1.0,
                     .T_frame_grid = {-1.0, 2.0, 0.0}},
-                   [&] {
+                   [&]() -> std::vector<Segment> {
                      ++asked;
-                     return faces;
+                     return {faces.begin(), faces.end()};
                    });
   EXPECT_EQ(plan.way(Pattern::fan), Way::embree);
   EXPECT_EQ(grid.way(Pattern::fan), Way::distance_walk);
   std::vector<Beam> beams;
+  beams.reserve(40);
   for (int i = 0; i < 40; ++i) beams.push_back(ray_beam(0.11 + 0.157 * i));
   const std::vector<Pose> poses{{0.5, 3.7, 0.3}, {2.3, 4.4, -2.0}, {-0.4, 3.6, 0.1}};  // the last in a wall
   EXPECT_EQ(cast(grid, poses, beams).size(), 120u);
