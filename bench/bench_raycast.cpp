@@ -12,6 +12,7 @@
 
 #include "bench/ray_places.hpp"
 #include "bench/way_report.hpp"
+#include "landfall/search.hpp"
 
 namespace landfall {
 namespace {
@@ -103,6 +104,7 @@ void register_place(const RayPlace& place) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::AddCustomContext("instruction set", landfall::active_isa());
   const std::vector<landfall::bench::RayPlace> places = landfall::bench::ray_places();
   for (const landfall::bench::RayPlace& place : places) {
     if (!landfall::bench::agrees_with_oracle(place)) return 1;

@@ -60,6 +60,7 @@ const WallMap& PreparedState::walls() const {
 
 const raycast::Scene& PreparedState::scene() const {
   return scene_.get([this] {
+    (void)active_isa();  // rays are cast by kernels
     return plan_ ? raycast::Scene(to_raycast(*plan_))
                  : raycast::Scene(to_raycast(grid_), [this] { return to_raycast(walls()); });
   });
