@@ -3,62 +3,20 @@
 // bound is held to exhaustive search on a coarse lattice of each place before anything is timed.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "bench/office.hpp"
-#include "engine/counter_rng.hpp"
-#include "landfall/io.hpp"
-#include "landfall/search.hpp"
-#include "landfall/simulate.hpp"
-#include "tests/data_folder.hpp"
+#include "bench/places.hpp"
 
 namespace landfall::bench {
 namespace {
 
-constexpr std::size_t scans_per_place = 24;
 constexpr double coarse_rotation_step_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::size_t most_cells_exhaustive = 1'000'000;              // on larger maps it takes seconds
 const PosePrior anywhere{Anywhere{}};
-
-struct Place {
-  std::string name;
-  PreparedMap map;
-  std::vector<Scan> scans;
-};
-
-// Scans of 180 beams from random free poses.
-Place office_place() {
-  const PreparedMap map(office());
-  internal::CounterRng rng(1);
-  std::vector<Pose2> T_map_robot;
-  while (T_map_robot.size() < scans_per_place) {
-    const Pose2 pose{.x_m = 30.0 * rng.uniform(),
-                     .y_m = 30.0 * rng.uniform(),
-                     .theta_rad = 2.0 * std::numbers::pi * rng.uniform()};
-    if (map.grid().at(map.grid().cell_of({pose.x_m, pose.y_m})) == Occupancy::free)
-      T_map_robot.push_back(pose);
-  }
-  const auto sensor = std::make_shared<const Sensor>(
-      make_fan({.beams = 180, .first_rad = -std::numbers::pi / 2.0, .step_rad = std::numbers::pi / 180.0}));
-  return {"office", map, simulate(map, sensor, T_map_robot)};
-}
-
-// Queries evenly spread over the log.
-Place building_place(const std::string& name) {
-  const std::filesystem::path folder = testing::data_folder() / name;
-  const std::vector<Scan> log = load_log(folder / "query.log.gz").scans;
-  Place place{name, load_map(folder / "map.yaml"), {}};
-  for (std::size_t i = 0; i < scans_per_place; ++i)
-    place.scans.push_back(log[i * (log.size() - 1) / (scans_per_place - 1)]);
-  return place;
-}
 
 bool equals_exhaustive(const Place& place) {
   for (const std::size_t i : {std::size_t{0}, scans_per_place / 2}) {
@@ -67,24 +25,12 @@ bool equals_exhaustive(const Place& place) {
     const SearchResult expected = search(place.map, anywhere, place.scans[i], options);
     options.method = "branch_and_bound";
     const SearchResult result = search(place.map, anywhere, place.scans[i], options);
-    const auto best_score = [](const SearchResult& of) {
-      std::int64_t best = 0;
-      for (const Hypothesis& hypothesis : of.hypotheses) best = std::max(best, hypothesis.score);
-      return best;
-    };
     if (best_score(result) == best_score(expected) && result.proven) continue;
     std::fprintf(stderr, "%s, scan %zu: branch and bound scores %lld, exhaustive %lld\n", place.name.c_str(),
                  i, static_cast<long long>(best_score(result)), static_cast<long long>(best_score(expected)));
     return false;
   }
   return true;
-}
-
-double quantile(std::vector<double>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 // One scan after the other, each with all threads: an iteration is all of the place's scans.
@@ -151,25 +97,14 @@ void register_place(const Place& place) {
   add("prepare", [&place](benchmark::State& s) { time_prepare(s, place); });
 }
 
-std::vector<Place> places() {
-  std::vector<Place> all;
-  all.push_back(office_place());
-  if (!testing::has_data()) {
-    std::fprintf(stderr, "no real data: set LANDFALL_DATA\n");
-    return all;
-  }
-  for (const char* name : {"intel", "csail", "aces", "acapulco", "infinite_corridor"})
-    all.push_back(building_place(name));
-  return all;
-}
-
 }  // namespace
 }  // namespace landfall::bench
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  const std::vector<landfall::bench::Place> places = landfall::bench::places();
+  const std::vector<landfall::bench::Place> places =
+      landfall::bench::office_and({"intel", "csail", "aces", "acapulco", "infinite_corridor"});
   for (const landfall::bench::Place& place : places) {
     if (!landfall::bench::equals_exhaustive(place)) return 1;
     landfall::bench::register_place(place);

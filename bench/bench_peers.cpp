@@ -1,0 +1,16 @@
+// Peers side by side with landfall: bench/peers/comparisons.hpp. On a made-up office, and where the data are
+// on the Intel lab.
+#include <benchmark/benchmark.h>
+
+#include "bench/peers/comparisons.hpp"
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  const std::vector<landfall::bench::Place> places = landfall::bench::office_and({"intel"});
+  for (const landfall::bench::Place& place : places)
+    if (!landfall::bench::compare_search(place)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

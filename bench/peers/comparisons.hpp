@@ -1,0 +1,13 @@
+// Peers side by side with landfall, on one thread each, in processor time. Every comparison first holds their
+// answers to each other, false with a message on stderr where they differ, and then registers a benchmark for
+// each, called PLACE/COMPARISON/WHO. The place must outlive the benchmarks.
+#pragma once
+
+#include "bench/places.hpp"
+
+namespace landfall::bench {
+
+// A scan without prior: the textbook's branch and bound.
+bool compare_search(const Place& place);
+
+}  // namespace landfall::bench
