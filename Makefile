@@ -25,7 +25,8 @@ demo: setup
 test: build
 	@tools/test
 
-bench: setup
+bench:
+	@tools/setup --bench
 	@cmake --workflow --preset bench
 	@tools/bench
 

@@ -8,8 +8,10 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   const std::vector<landfall::bench::Place> places = landfall::bench::office_and({"intel"});
+  landfall::bench::report_missing_peers();
   for (const landfall::bench::Place& place : places)
-    if (!landfall::bench::compare_search(place)) return 1;
+    if (!landfall::bench::compare_search(place) || !landfall::bench::compare_dense_correlation(place))
+      return 1;
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -9,5 +9,10 @@ namespace landfall::bench {
 
 // A scan without prior: the textbook's branch and bound.
 bool compare_search(const Place& place);
+// All poses of a map at one heading: OpenCV and FFTW beside the rows of `exhaustive`.
+bool compare_dense_correlation(const Place& place);
+
+// A line on stderr for each peer that this build goes without.
+void report_missing_peers();
 
 }  // namespace landfall::bench
