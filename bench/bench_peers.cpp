@@ -10,8 +10,7 @@ int main(int argc, char** argv) {
   const std::vector<landfall::bench::Place> places = landfall::bench::office_and({"intel"});
   landfall::bench::report_missing_peers();
   for (const landfall::bench::Place& place : places)
-    if (!landfall::bench::compare_search(place) || !landfall::bench::compare_dense_correlation(place))
-      return 1;
+    if (!landfall::bench::compare_with_peers(place)) return 1;
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;
