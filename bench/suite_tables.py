@@ -1,4 +1,4 @@
-"""The Google Benchmark suites as tables: kernels by instruction set, rays and searches by place."""
+"""The Google Benchmark suites as tables: kernels by instruction set, rays and searches by place, peers."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ def suite_sections(folder: Path) -> dict[str, tuple[str, Table]]:
         "kernels": kernel_table,
         "raycast": ray_table,
         "search": search_table,
+        "peers": peer_table,
     }
     sections = {}
     for name, table in tables.items():
@@ -98,6 +99,33 @@ def search_table(medians: Mapping[str, Median]) -> Table:
             cells.append(f"{scale * median.counters[counter]:.1f}" if median else "-")
         rows.append([place, *cells])
     return rows
+
+
+def peer_table(medians: Mapping[str, Median]) -> Table:
+    """A row per place, comparison and peer; how many times faster landfall is."""
+    compared: dict[str, dict[str, Median]] = {}
+    for name, median in medians.items():
+        what, who = name.rsplit("/", 1)
+        compared.setdefault(what, {})[who] = median
+    rows = [["what", "who", "unit", "peer", "landfall", "ratio"]]
+    for what, by_whom in compared.items():
+        ours = by_whom.pop("landfall", None)
+        for who, theirs in by_whom.items() if ours else ():
+            rows.append([what, who, *_side_by_side(theirs.counters, ours.counters)])
+    return rows
+
+
+def _side_by_side(theirs: Mapping[str, float], ours: Mapping[str, float]) -> list[str]:
+    if "median_ms" in ours:
+        their_ms, our_ms = theirs["median_ms"], ours["median_ms"]
+        return ["ms", f"{their_ms:.1f}", f"{our_ms:.1f}", _times(their_ms / our_ms)]
+    unit = next(unit for unit in ("poses/s", "rays/s") if unit in ours)
+    cells = [f"{rate[unit] * 1e-6:.3g}" for rate in (theirs, ours)]
+    return [f"M {unit}", *cells, _times(ours[unit] / theirs[unit])]
+
+
+def _times(ratio: float) -> str:
+    return f"{ratio:.0f} x" if ratio >= 100 else f"{ratio:.1f} x"
 
 
 def _millions(rate: float) -> str:

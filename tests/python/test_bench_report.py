@@ -34,7 +34,7 @@ def test_a_part_without_place_is_an_error(module, tmp_path):
 
 
 def test_the_page_has_a_place_for_every_part(module):
-    parts = ("run", "buildings", "verdicts", "wean_hall", "trace1", "kernels", "raycast", "search")
+    parts = ("run", "buildings", "verdicts", "wean_hall", "trace1", "kernels", "raycast", "search", "peers")
     module("results_page").replace_measured((BENCH / "RESULTS.md").read_text(), dict.fromkeys(parts, ""))
 
 
@@ -115,4 +115,28 @@ def test_the_chosen_way_is_bold_and_says_what_it_misses(module, tmp_path):
         ["fan", "walk", "**20.0**", "-"],
         ["single", "embree", "4.0", "-"],
         ["single", "walk", "**3.0** (75 % of the fastest)", "-"],
+    ]
+
+
+def test_peers_beside_landfall(module, tmp_path):
+    def median(name, family, **counters):
+        entry = {"run_name": name, "aggregate_name": "median", "cpu_time": 1.0, "time_unit": "us"}
+        return {**entry, "name": f"{name}_median", "family_index": family, **counters}
+
+    entries = [
+        median("a/search/textbook", 0, median_ms=60.0),
+        median("a/search/landfall", 1, median_ms=4.0),
+        median("a/scan/mrpt", 2, **{"rays/s": 5e6}),
+        median("a/scan/other", 3, **{"rays/s": 20e6}),
+        median("a/scan/landfall", 4, **{"rays/s": 10e6}),
+        median("a/field/landfall", 5, **{"poses/s": 1e6}),
+    ]
+    file = tmp_path / "bench_peers.json"
+    file.write_text(json.dumps({"context": {"date": "2026-11-22T10:00"}, "benchmarks": entries}))
+    _, rows = module("suite_tables").suite_sections(tmp_path)["peers"]
+    assert rows == [
+        ["what", "who", "unit", "peer", "landfall", "ratio"],
+        ["a/search", "textbook", "ms", "60.0", "4.0", "15.0 x"],
+        ["a/scan", "mrpt", "M rays/s", "5", "10", "2.0 x"],
+        ["a/scan", "other", "M rays/s", "20", "10", "0.5 x"],
     ]
