@@ -1,7 +1,7 @@
 // Branch and bound as published: Hess, Kohler, Rapp, Andor, "Real-Time Loop Closure in 2D LIDAR SLAM",
 // ICRA 2016, section V. A fair baseline for landfall's own: scalar, one thread, one candidate at a time.
-// What is added to the paper: nodes without a free cell are left out, a sum that cannot reach the best score
-// any more is given up, and the grids have margins of zeros in place of border tests. All three pay.
+// What is added to the paper, for speed: nodes without a free cell are left out, a sum that cannot reach the
+// best score any more is given up, and the grids have margins of zeros in place of border tests.
 #pragma once
 
 #include <cstdint>
