@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include "engine/executor.hpp"
 #include "kernels/isa.hpp"
 #include "landfall/error.hpp"
 
@@ -39,6 +40,11 @@ void validate(const SearchOptions& options) {
           "0 or radians");
 }
 
+void validate_environment() {
+  (void)active_isa();
+  (void)active_executor();
+}
+
 }  // namespace internal
 
 std::string active_isa() {
@@ -50,6 +56,10 @@ std::string active_isa() {
                                                "\", which is no instruction set of this machine");
   });
   return kernels::isa_name();
+}
+
+std::string active_executor() {
+  return internal::executor().name;
 }
 
 }  // namespace landfall

@@ -8,4 +8,7 @@ namespace landfall::internal {
 // checked against the map where the lattice is made, the method's name where it is looked up.
 void validate(const SearchOptions& options);
 
+// Throws Error{unknown_name} where LANDFALL_ISA or LANDFALL_EXECUTOR names what is not there.
+void validate_environment();
+
 }  // namespace landfall::internal

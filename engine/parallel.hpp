@@ -1,5 +1,6 @@
-// Tasks over indices. The one place that knows the scheduler; the only door through which an exception
-// leaves a parallel region.
+// Tasks over indices. The one door to the scheduler, and the only one through which an exception leaves a
+// parallel region: the first that was thrown; what has not begun by then is left out. Which scheduler, and
+// what a host's own parallel regions mean to it: executor.hpp.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 namespace landfall::internal {
 
 // Threads that `threads` asks for: itself, as far as the machine has them, or all that the caller's
-// arena offers for 0.
+// arena or OpenMP settings offer for 0. 1 where the host has spread its work already.
 int thread_count(int threads);
 
 // body(i) for i in [0, count), on up to `threads` threads (0: all; 1: in this thread, in order).

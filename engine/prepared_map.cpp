@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/distance_field.hpp"
+#include "engine/options.hpp"
 #include "engine/prepared_state.hpp"
 #include "engine/to_raycast.hpp"
 #include "landfall/error.hpp"
@@ -141,7 +142,7 @@ std::size_t PreparedMap::memory_bytes() const {
 }
 
 void PreparedMap::prepare() const {
-  (void)active_isa();
+  internal::validate_environment();
   (void)state_->window_tables();
   (void)state_->bound_table();
   (void)state_->coarse_bound_table();

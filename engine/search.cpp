@@ -224,7 +224,7 @@ std::vector<SearchResult> search(std::span<const PreparedMap> maps, std::span<co
                                                  " scans, expected 1 or one per scan");
   for (const PosePrior& prior : priors) validate(prior);
   for (const Scan& scan : scans) validate(scan);
-  (void)active_isa();
+  validate_environment();
   const Clock::time_point start = Clock::now();
   const std::vector<PreparedQuestion> questions = prepare_questions(maps, priors, options);
   const double prepare_ms = ms_since(start);

@@ -364,6 +364,11 @@ LANDFALL_API landfall_status landfall_method_get(size_t index, landfall_method* 
  * LANDFALL_ISA. Valid until the next call in this thread. */
 LANDFALL_API landfall_status landfall_active_isa(const char** isa);
 
+/* What schedules parallel work: "tbb", or "openmp" where the environment variable LANDFALL_EXECUTOR says so,
+ * for hosts that run on OpenMP. LANDFALL_UNKNOWN_NAME where it names what this build lacks. Valid until the
+ * next call in this thread. */
+LANDFALL_API landfall_status landfall_active_executor(const char** executor);
+
 #ifdef __cplusplus
 }
 #endif

@@ -35,3 +35,11 @@ landfall_status landfall_active_isa(const char** isa) {
     required(isa, "isa") = name.c_str();
   });
 }
+
+landfall_status landfall_active_executor(const char** executor) {
+  return guarded(__func__, [&] {
+    thread_local std::string name;
+    name = landfall::active_executor();
+    required(executor, "executor") = name.c_str();
+  });
+}

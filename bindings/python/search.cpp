@@ -97,6 +97,8 @@ void bind_search(nb::module_& module) {
       "The search methods: (name, summary, source) each.");
   module.def("active_isa", &active_isa,
              "The instruction set that the kernels run with. LANDFALL_ISA forces a lower one.");
+  module.def("active_executor", &active_executor,
+             "What schedules parallel work: \"tbb\", or \"openmp\" where LANDFALL_EXECUTOR says so.");
 }
 
 }  // namespace landfall::python

@@ -108,6 +108,9 @@ static void list_methods(void) {
   const char* isa = NULL;
   CHECK_OK(landfall_active_isa(&isa));
   CHECK(strlen(isa) > 0);
+  const char* executor = NULL;
+  CHECK_OK(landfall_active_executor(&executor));
+  CHECK(strlen(executor) > 0);
   CHECK(strncmp(landfall_version(), "0.", 2) == 0);
 }
 

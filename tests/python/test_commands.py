@@ -170,6 +170,7 @@ def test_convert_takes_a_part_and_its_poses(tmp_path, scans, landfall_command):
 def test_methods_and_version(landfall_command):
     done = landfall_command("methods")
     assert "branch_and_bound" in done.out and landfall.active_isa() in done.out
+    assert f"threads: {landfall.active_executor()}" in done.out
     listed = json.loads(landfall_command("methods", "--json").out)
     assert [row["name"] for row in listed["methods"]] == [name for name, _, _ in landfall.methods()]
     assert landfall_command("--version").out.startswith("landfall ")

@@ -96,5 +96,9 @@ std::span<const MethodInfo> methods();
 // The instruction set that the kernels run with ("AVX3_ZEN4", "AVX2", ..., "SCALAR"). Forced lower by
 // the environment variable LANDFALL_ISA; an unknown name there throws Error{unknown_name} here.
 std::string active_isa();
+// What schedules parallel work: "tbb", or "openmp" where the environment variable LANDFALL_EXECUTOR says so
+// (for hosts that run on OpenMP); an unknown name there throws Error{unknown_name} here. Inside a host's
+// own parallel region search() starts no more threads than the host allowed. Answers do not depend on it.
+std::string active_executor();
 
 }  // namespace landfall

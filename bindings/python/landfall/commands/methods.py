@@ -9,17 +9,17 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from landfall._landfall import active_isa, methods
+from landfall._landfall import active_executor, active_isa, methods
 
 
 def run(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
 ) -> None:
-    """The search methods, and the instruction set that the kernels run with."""
+    """The search methods, the instruction set that the kernels run with, and what schedules threads."""
     rows = methods()
     if as_json:
         found = [dict(zip(("name", "summary", "source"), row, strict=True)) for row in rows]
-        print(json.dumps({"isa": active_isa(), "methods": found}))
+        print(json.dumps({"isa": active_isa(), "executor": active_executor(), "methods": found}))
         return
     table = Table()
     for column in ("method", "what it is", "source"):
@@ -28,4 +28,4 @@ def run(
         table.add_row(*row)
     console = Console()
     console.print(table)
-    console.print(f"kernels: {active_isa()}")
+    console.print(f"kernels: {active_isa()}, threads: {active_executor()}")
