@@ -1,6 +1,7 @@
 // Every instruction set of this machine in turn.
 #pragma once
 
+#include <array>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -22,13 +23,18 @@ class UsedInstructionSet {
   UsedInstructionSet& operator=(const UsedInstructionSet&) = delete;
 };
 
+// Of any machine, best first.
+constexpr std::array instruction_set_names{"AVX3_SPR", "AVX3_ZEN4", "AVX3_DL", "AVX3",     "AVX2",
+                                           "SSE4",     "SSSE3",     "SSE2",    "SVE2_128", "SVE_256",
+                                           "SVE2",     "SVE",       "NEON",    "EMU128",   "SCALAR"};
+
 inline std::vector<std::string> instruction_sets() {
   std::vector<std::string> of_this_machine;
-  for (const char* name : {"AVX3_SPR", "AVX3_ZEN4", "AVX3_DL", "AVX3", "AVX2", "SSE4", "SSSE3", "SSE2",
-                           "SVE2_128", "SVE_256", "SVE2", "SVE", "NEON", "EMU128", "SCALAR"}) {
+  for (const char* name : instruction_set_names) {
     if (kernels::select_isa(name)) of_this_machine.emplace_back(name);
   }
-  kernels::select_isa(nullptr);  // active_isa() obeys LANDFALL_ISA where a test first asks it
+  kernels::select_isa(nullptr);
+  kernels::select_isa(std::getenv("LANDFALL_ISA"));
   return of_this_machine;
 }
 
