@@ -1,27 +1,43 @@
-#include "kernels/isa.hpp"
-
-#include <hwy/targets.h>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/isa.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target comes before highway.h
+#include <hwy/highway.h>
 
 #include <atomic>
 #include <cstdint>
 #include <string_view>
 
+#include "kernels/isa.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace landfall::kernels {
+namespace HWY_NAMESPACE {
+
+// Highway's own fallback is compiled as one lane (HWY_SCALAR) where its compiler cannot do EMU128. It has the
+// latter's name here: SCALAR is our plain twins.
+const char* DispatchedName() {
+  return HWY_TARGET == HWY_SCALAR ? "EMU128" : hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace landfall::kernels
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace landfall::kernels {
 namespace {
 
 std::atomic<bool> scalar{false};
-std::atomic<const char*> name{nullptr};  // of the best target that is not disabled; null: not asked yet
 
-// Highway numbers targets so that a better one of the same architecture is a lower bit.
-std::int64_t best_of(std::int64_t targets) {
-  return targets & -targets;
-}
+HWY_EXPORT(DispatchedName);
 
-// The machine's target of that name; 0: none.
+// The target of that name that the machine has and kernels were compiled for; 0: none. Highway numbers
+// targets so that a better one of the same architecture is a lower bit.
 std::int64_t find_target(std::string_view target_name) {
-  static const std::int64_t all = hwy::SupportedTargets();
+  static const std::int64_t all = hwy::SupportedTargets() & (HWY_TARGETS | HWY_EMU128);
   for (std::int64_t rest = all; rest != 0; rest &= rest - 1)
-    if (target_name == hwy::TargetName(best_of(rest))) return best_of(rest);
+    if (target_name == hwy::TargetName(rest & -rest)) return rest & -rest;
   return 0;
 }
 
@@ -31,15 +47,10 @@ bool scalar_selected() {
   return scalar.load(std::memory_order_relaxed);
 }
 
+// Asked the way the kernels are called: SupportedTargets() would answer from the mask, but leaves the best
+// target chosen for the next kernel, disabled or not (Highway 1.0.3).
 const char* isa_name() {
-  if (scalar_selected()) return "SCALAR";
-  // Asking the processor takes tens of microseconds on a virtual one.
-  const char* known = name.load(std::memory_order_relaxed);
-  if (known == nullptr) {
-    known = hwy::TargetName(best_of(hwy::SupportedTargets()));
-    name.store(known, std::memory_order_relaxed);
-  }
-  return known;
+  return scalar_selected() ? "SCALAR" : HWY_DYNAMIC_DISPATCH(DispatchedName)();
 }
 
 bool select_isa(const char* target_name) {
@@ -52,8 +63,8 @@ bool select_isa(const char* target_name) {
   }
   scalar = wanted == "SCALAR";
   hwy::DisableTargets(disabled);
-  name = nullptr;
   return true;
 }
 
 }  // namespace landfall::kernels
+#endif

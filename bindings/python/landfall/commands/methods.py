@@ -16,10 +16,10 @@ def run(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
 ) -> None:
     """The search methods, the instruction set that the kernels run with, and what schedules threads."""
-    rows = methods()
+    rows, isa, executor = methods(), active_isa(), active_executor()
     if as_json:
         found = [dict(zip(("name", "summary", "source"), row, strict=True)) for row in rows]
-        print(json.dumps({"isa": active_isa(), "executor": active_executor(), "methods": found}))
+        print(json.dumps({"isa": isa, "executor": executor, "methods": found}))
         return
     table = Table()
     for column in ("method", "what it is", "source"):
@@ -28,4 +28,4 @@ def run(
         table.add_row(*row)
     console = Console()
     console.print(table)
-    console.print(f"kernels: {active_isa()}, threads: {active_executor()}")
+    console.print(f"kernels: {isa}, threads: {executor}")
