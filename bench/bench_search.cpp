@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "bench/places.hpp"
+#include "tests/executors.hpp"
+#include "tests/instruction_sets.hpp"
 
 namespace landfall::bench {
 namespace {
@@ -80,21 +82,64 @@ void time_prepare(benchmark::State& state, const Place& place) {
   state.counters["cells/s"] = benchmark::Counter(cells, benchmark::Counter::kIsIterationInvariantRate);
 }
 
+void add(const Place& place, const std::string& what, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark((place.name + "/" + what).c_str(), run)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+}
+
 void register_place(const Place& place) {
-  const auto add = [&](const std::string& what, const std::function<void(benchmark::State&)>& run) {
-    benchmark::RegisterBenchmark((place.name + "/" + what).c_str(), run)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime();
-  };
   for (const int threads : {1, 2}) {
     const std::string suffix = "/threads:" + std::to_string(threads);
-    add("branch_and_bound" + suffix,
+    add(place, "branch_and_bound" + suffix,
         [&place, threads](benchmark::State& s) { time_latency(s, place, threads); });
-    add("batch" + suffix, [&place, threads](benchmark::State& s) { time_batch(s, place, threads); });
+    add(place, "batch" + suffix, [&place, threads](benchmark::State& s) { time_batch(s, place, threads); });
   }
   if (place.map.grid().cells.size() < most_cells_exhaustive)
-    add("exhaustive/threads:2", [&place](benchmark::State& s) { time_exhaustive(s, place, 2); });
-  add("prepare", [&place](benchmark::State& s) { time_prepare(s, place); });
+    add(place, "exhaustive/threads:2", [&place](benchmark::State& s) { time_exhaustive(s, place, 2); });
+  add(place, "prepare", [&place](benchmark::State& s) { time_prepare(s, place); });
+}
+
+bool same_hypotheses(const SearchResult& a, const SearchResult& b) {
+  const auto same = [](const Hypothesis& one, const Hypothesis& other) {
+    return one.score == other.score && one.T_map_robot_unrefined == other.T_map_robot_unrefined;
+  };
+  return a.proven == b.proven &&
+         std::equal(a.hypotheses.begin(), a.hypotheses.end(), b.hypotheses.begin(), b.hypotheses.end(), same);
+}
+
+// Whole searches in one thread on every instruction set, each held to the best one's answers.
+bool register_instruction_sets(const Place& place) {
+  const SearchOptions options{.method = "branch_and_bound", .threads = 1};
+  const Scan& scan = place.scans.front();
+  const SearchResult expected = search(place.map, anywhere, scan, options);
+  for (const std::string& isa : testing::instruction_sets()) {
+    const testing::UsedInstructionSet proven(isa);
+    if (!same_hypotheses(search(place.map, anywhere, scan, options), expected)) {
+      std::fprintf(stderr, "%s: %s answers otherwise\n", place.name.c_str(), isa.c_str());
+      return false;
+    }
+    add(place, "branch_and_bound/isa:" + isa, [&place, isa](benchmark::State& state) {
+      const testing::UsedInstructionSet used(isa);
+      time_latency(state, place, 1);
+    });
+  }
+  return true;
+}
+
+// One scan after the other, and all in one call, on two threads of each scheduler.
+void register_executors(const Place& place) {
+  for (const std::string& executor : testing::executor_names()) {
+    const std::string suffix = "/threads:2/executor:" + executor;
+    add(place, "branch_and_bound" + suffix, [&place, executor](benchmark::State& state) {
+      const testing::UsedExecutor used(executor);
+      time_latency(state, place, 2);
+    });
+    add(place, "batch" + suffix, [&place, executor](benchmark::State& state) {
+      const testing::UsedExecutor used(executor);
+      time_batch(state, place, 2);
+    });
+  }
 }
 
 }  // namespace
@@ -109,6 +154,9 @@ int main(int argc, char** argv) {
     if (!landfall::bench::equals_exhaustive(place)) return 1;
     landfall::bench::register_place(place);
   }
+  const landfall::bench::Place& compared = places[places.size() > 1 ? 1 : 0];  // intel, where data are
+  if (!landfall::bench::register_instruction_sets(compared)) return 1;
+  landfall::bench::register_executors(compared);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -1,5 +1,5 @@
 // A made-up floor for where there are no real data: 30 x 30 m at 5 cm, rooms of 3 m with doors of 1 m, each
-// with furniture of its own.
+// with furniture of its own. Of another number of rooms where growth is measured.
 #pragma once
 
 #include "engine/counter_rng.hpp"
@@ -23,16 +23,16 @@ inline void draw_furniture(GridMap& map, int room_col, int room_row, int room_ce
   }
 }
 
-inline GridMap office() {
-  constexpr int rooms = 10;
+inline GridMap office(int rooms = 10) {
   constexpr int room_cells = 60;
   constexpr int door_cells = 20;
-  constexpr int side = rooms * room_cells + 1;
+  const int side = rooms * room_cells + 1;
   GridMap map{.width_cells = side,
               .height_cells = side,
               .resolution_m = 0.05,
               .T_map_grid = {},
-              .cells = std::vector<Occupancy>(std::size_t{side} * side, Occupancy::free)};
+              .cells = std::vector<Occupancy>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side),
+                                              Occupancy::free)};
   for (int row = 0; row < side; ++row)
     for (int col = 0; col < side; ++col) {
       const bool outer = row % (side - 1) == 0 || col % (side - 1) == 0;

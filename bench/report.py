@@ -1,4 +1,5 @@
 """Measures landfall on the real maps and logs and writes bench/RESULTS.md beside the Google Benchmark suites.
+docs/growth.png is drawn from the suite bench_growth.
 
     .venv/bin/python bench/report.py [--quick] [--buildings intel,csail] [--json numbers.json]
 
@@ -21,6 +22,7 @@ from pathlib import Path
 import landfall
 from buildings import NAMES, Building, measure
 from drives import trace1, wean_hall
+from growth import draw_growth, exponent_table, growth_table, load_growth
 from landfall.commands.tables import print_table
 from results_page import rewrite_measured, table
 from suite_tables import suite_sections
@@ -28,6 +30,8 @@ from targets import BUILDINGS, TRACE1, WEAN_HALL, probability_table, target_tabl
 
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "build" / "bench" / "results"
+GROWTH = OUT / "bench_growth.json"
+GROWTH_PICTURE = ROOT / "docs" / "growth.png"
 QUICK_EVERY = 10
 
 
@@ -109,6 +113,9 @@ def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
             parts[name] = table(target_table(targets, measured[name]))
     for name, (date, rows) in suite_sections(OUT).items():
         parts[name] = f"{date[:10]}\n\n{table(rows)}"
+    if GROWTH.is_file():
+        date, found = load_growth(GROWTH)
+        parts["growth"] = "\n\n".join((date[:10], table(exponent_table(found)), table(growth_table(found))))
     return parts
 
 
@@ -132,6 +139,8 @@ def main(arguments: list[str] | None = None) -> int:
     print_tables(measured)
     try:
         rewrite_measured(options.results, measured_parts(measured, run))
+        if GROWTH.is_file():
+            draw_growth(load_growth(GROWTH)[1], GROWTH_PICTURE)
     except (OSError, ValueError) as cause:
         say(str(cause))
         return 2

@@ -18,13 +18,18 @@ def suite_sections(folder: Path) -> dict[str, tuple[str, Table]]:
         "raycast": ray_table,
         "search": search_table,
         "peers": peer_table,
+        "isa": isa_table,
+        "executor": executor_table,
     }
+    suites = {"isa": "search", "executor": "search"}  # the others are called as their suites
     sections = {}
     for name, table in tables.items():
-        path = folder / f"bench_{name}.json"
+        path = folder / f"bench_{suites.get(name, name)}.json"
         if path.is_file():
             suite: Suite = load_suite(path)
-            sections[name] = (suite.date, table(suite.medians))
+            rows = table(suite.medians)
+            if len(rows) > 1:
+                sections[name] = (suite.date, rows)
     return sections
 
 
@@ -126,6 +131,42 @@ def _side_by_side(theirs: Mapping[str, float], ours: Mapping[str, float]) -> lis
 
 def _times(ratio: float) -> str:
     return f"{ratio:.0f} x" if ratio >= 100 else f"{ratio:.1f} x"
+
+
+def isa_table(medians: Mapping[str, Median]) -> Table:
+    """Whole searches on one thread, a row per instruction set."""
+    rows = [["instruction set", "place", "median ms", "of the best"]]
+    best_ms = None
+    for name, median in medians.items():
+        place, *what = name.split("/")
+        if what[:1] != ["branch_and_bound"] or not what[1].startswith("isa:"):
+            continue
+        ms = median.counters["median_ms"]
+        best_ms = best_ms or ms  # registered best first
+        rows.append([what[1].removeprefix("isa:"), place, f"{ms:.1f}", f"{ms / best_ms:.2f}"])
+    return rows
+
+
+def executor_table(medians: Mapping[str, Median]) -> Table:
+    """Two threads of each scheduler: a scan at a time, and a batch."""
+    columns = (
+        ("median ms", "branch_and_bound", "median_ms"),
+        ("p95 ms", "branch_and_bound", "p95_ms"),
+        ("batch: scans/s", "batch", "scans/s"),
+    )
+    rows = [["executor", "place", *(title for title, *_ in columns)]]
+    found = dict.fromkeys(
+        (name.split("/")[0], name.split("/executor:")[1].removesuffix("/real_time"))
+        for name in medians
+        if "/executor:" in name
+    )
+    for place, executor in found:
+        cells = []
+        for _, benchmark, counter in columns:
+            median = medians.get(f"{place}/{benchmark}/threads:2/executor:{executor}/real_time")
+            cells.append(f"{median.counters[counter]:.1f}" if median else "-")
+        rows.append([executor, place, *cells])
+    return rows
 
 
 def _millions(rate: float) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,7 @@ def test_a_part_without_place_is_an_error(module, tmp_path):
 
 def test_the_page_has_a_place_for_every_part(module):
     parts = ("run", "buildings", "verdicts", "wean_hall", "trace1", "kernels", "raycast", "search", "peers")
+    parts += ("isa", "executor", "growth")
     module("results_page").replace_measured((BENCH / "RESULTS.md").read_text(), dict.fromkeys(parts, ""))
 
 
@@ -139,4 +141,80 @@ def test_peers_beside_landfall(module, tmp_path):
         ["a/search", "textbook", "ms", "60.0", "4.0", "15.0 x"],
         ["a/scan", "mrpt", "M rays/s", "5", "10", "2.0 x"],
         ["a/scan", "other", "M rays/s", "20", "10", "0.5 x"],
+    ]
+
+
+def median_of(module, **counters):
+    return module("google_benchmark").Median(1.0, counters)
+
+
+def growth_of(module, exponent):
+    """Maps whose time grows with that power of the poses, one building, and beams that cost as many ms."""
+    medians = {
+        f"cut/cells:{side}x{side}/real_time": median_of(
+            module, poses=720.0 * side**2, beams=180.0, median_ms=1e-3 * (720.0 * side**2) ** exponent
+        )
+        for side in (61, 601, 6001)
+    }
+    medians["building/intel/real_time"] = median_of(module, poses=2e8, beams=180.0, median_ms=4.0)
+    for beams in (45.0, 90.0, 180.0):
+        medians[f"beams/{beams:.0f}/real_time"] = median_of(module, poses=2e8, beams=beams, median_ms=beams)
+    return module("growth").series(medians)
+
+
+def test_growth_has_the_exponents_it_was_made_with(module):
+    found = growth_of(module, 0.5)
+    found["cut"].append(module("growth").Point("cells:1x1", 1e4, 180.0, 0.1))  # counts only among all
+    assert module("growth").exponent_table(found) == [
+        ["exponent of", "all", "1e+08 poses and more"],
+        ["poses: cuts of infinite_corridor", "0.50", "0.50"],
+        ["beams", "1.00", ""],
+    ]
+    found["cut"][-1] = module("growth").Point("cells:1x1", 1e4, 180.0, 1e-9)
+    assert module("growth").exponent_table(found)[1][1] != "0.50"
+    assert module("growth").exponent_table(found)[1][2] == "0.50"
+
+
+def test_growth_of_one_size_has_no_exponent(module):
+    assert math.isnan(module("growth").exponent([5.0, 5.0], [1.0, 2.0]))
+
+
+def test_growth_table_names_map_poses_and_beams(module):
+    rows = module("growth").growth_table(growth_of(module, 0.5))
+    assert rows[0] == ["map", "poses", "beams", "median ms"]
+    assert rows[1] == ["cut 61x61", "2.7e+06", "180", "1.64"]
+    assert rows[4] == ["intel", "2e+08", "180", "4"]
+    assert rows[-1] == ["beams 180", "2e+08", "180", "180"]
+
+
+def test_growth_is_drawn(module, tmp_path):
+    module("growth").draw_growth(growth_of(module, 0.5), tmp_path / "growth.png")
+    assert (tmp_path / "growth.png").read_bytes().startswith(b"\x89PNG")
+    assert list(tmp_path.iterdir()) == [tmp_path / "growth.png"]
+
+
+def test_searches_by_instruction_set(module):
+    medians = {
+        "intel/branch_and_bound/threads:1/real_time": median_of(module, median_ms=5.0),
+        "intel/branch_and_bound/isa:AVX2/real_time": median_of(module, median_ms=5.0),
+        "intel/branch_and_bound/isa:SCALAR/real_time": median_of(module, median_ms=200.0),
+    }
+    assert module("suite_tables").isa_table(medians) == [
+        ["instruction set", "place", "median ms", "of the best"],
+        ["AVX2", "intel", "5.0", "1.00"],
+        ["SCALAR", "intel", "200.0", "40.00"],
+    ]
+
+
+def test_executors_side_by_side(module):
+    medians = {}
+    for executor, ms in (("tbb", 3.0), ("openmp", 4.5)):
+        suffix = f"threads:2/executor:{executor}/real_time"
+        medians[f"intel/branch_and_bound/{suffix}"] = median_of(module, median_ms=ms, p95_ms=2 * ms)
+        medians[f"intel/batch/{suffix}"] = median_of(module, **{"scans/s": 900.0 / ms})
+    medians["intel/batch/threads:2/real_time"] = median_of(module, **{"scans/s": 1.0})
+    assert module("suite_tables").executor_table(medians) == [
+        ["executor", "place", "median ms", "p95 ms", "batch: scans/s"],
+        ["tbb", "intel", "3.0", "6.0", "300.0"],
+        ["openmp", "intel", "4.5", "9.0", "200.0"],
     ]
