@@ -118,7 +118,7 @@ kernels::BoundPlanes BoundTable::planes() const {
 
 kernels::WindowPlanes WindowTables::planes() const {
   return {.window_max = window_max.data(),
-          .column_of_4 = column_of_4.data(),
+          .column_of_2 = column_of_2.data(),
           .stride = width_cells + 2 * block_cells,
           .width = width_cells,
           .height = height_cells};
@@ -126,12 +126,12 @@ kernels::WindowPlanes WindowTables::planes() const {
 
 WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells) {
   WindowTables tables{
-      .width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_4 = {}};
+      .width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_2 = {}};
   const auto width = static_cast<std::size_t>(width_cells);
   const std::size_t stride = width + 2 * block_cells;
   const std::size_t rows = static_cast<std::size_t>(height_cells) + 2 * block_cells;
   tables.window_max.resize(stride * rows);
-  tables.column_of_4.resize(stride * rows);
+  tables.column_of_2.resize(stride * rows);
   const std::vector<std::uint8_t> nothing(width);
   const auto field_row = [&](std::size_t padded_row) {
     const bool inside =
@@ -139,8 +139,8 @@ WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_c
     return inside ? field.data() + (padded_row - block_cells) * width : nothing.data();
   };
   parallel_for(rows, 0, [&](std::size_t r) {
-    kernels::interleave_4(field_row(r), field_row(r + 1), field_row(r + 2), field_row(r + 3), width,
-                          tables.column_of_4.data() + r * stride + block_cells);
+    kernels::interleave_2(field_row(r), field_row(r + 1), width,
+                          tables.column_of_2.data() + r * stride + block_cells);
     std::vector<std::uint8_t> tallest(stride + block_cells);
     std::vector<std::uint8_t> scratch(stride + block_cells);
     for (std::size_t row = r; row < r + block_cells; ++row)

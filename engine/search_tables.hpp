@@ -51,11 +51,11 @@ struct WindowTables {
   int width_cells = 0;
   int height_cells = 0;
   std::vector<std::uint8_t> window_max;
-  std::vector<std::uint32_t> column_of_4;
+  std::vector<std::uint16_t> column_of_2;
 
   [[nodiscard]] kernels::WindowPlanes planes() const;
   [[nodiscard]] std::size_t memory_bytes() const {
-    return window_max.capacity() + 4 * column_of_4.capacity();
+    return window_max.capacity() + 2 * column_of_2.capacity();
   }
 };
 

@@ -33,45 +33,50 @@ void WindowIndices(const WindowPlanes& planes, int col, int row, const std::int3
   scalar::window_indices(planes, col, row, point_col + i, point_row + i, points - i, index + i);
 }
 
-// Sums of four rows x eight columns in columns of four: lane 4 * col + row.
-template <class D16>
-HWY_INLINE void AddHalf(D16 d, const std::uint8_t* HWY_RESTRICT window, std::uint16_t* HWY_RESTRICT sums) {
-  const hn::Rebind<std::uint8_t, D16> d_byte;
-  for (std::size_t lane = 0; lane < block_poses / 2; lane += hn::Lanes(d)) {
-    const auto value = hn::PromoteTo(d, hn::LoadU(d_byte, window + lane));
-    hn::Store(hn::Add(hn::Load(d, sums + lane), value), d, sums + lane);
-  }
+// Two rows x eight columns stand in columns of two: lane 2 * col + row.
+constexpr std::size_t pair_poses = 2 * block_cells;
+
+HWY_INLINE const std::uint8_t* PairOfRows(const WindowPlanes& planes, std::int32_t index, std::size_t pair) {
+  return reinterpret_cast<const std::uint8_t*>(planes.column_of_2 + index +
+                                               2 * pair * static_cast<std::size_t>(planes.stride));
 }
 
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-// Both halves stay in two registers.
+#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86
+// All pairs stay in four registers.
 HWY_INLINE void AddPoints(const WindowPlanes& planes, const std::int32_t* index, std::size_t count,
                           std::uint16_t* HWY_RESTRICT sums) {
-  const hn::FixedTag<std::uint16_t, 32> d;
+  const hn::FixedTag<std::uint16_t, pair_poses> d;
   const hn::Rebind<std::uint8_t, decltype(d)> d_byte;
-  const std::size_t up = 4 * static_cast<std::size_t>(planes.stride);
-  auto lower = hn::Load(d, sums);
-  auto upper = hn::Load(d, sums + 32);
+  const auto add = [&](auto sum, std::int32_t at, std::size_t pair) HWY_ATTR {
+    return hn::Add(sum, hn::PromoteTo(d, hn::LoadU(d_byte, PairOfRows(planes, at, pair))));
+  };
+  auto sum0 = hn::Load(d, sums);
+  auto sum1 = hn::Load(d, sums + pair_poses);
+  auto sum2 = hn::Load(d, sums + 2 * pair_poses);
+  auto sum3 = hn::Load(d, sums + 3 * pair_poses);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t* window = planes.column_of_4 + index[i];
-    lower =
-        hn::Add(lower, hn::PromoteTo(d, hn::LoadU(d_byte, reinterpret_cast<const std::uint8_t*>(window))));
-    upper = hn::Add(upper,
-                    hn::PromoteTo(d, hn::LoadU(d_byte, reinterpret_cast<const std::uint8_t*>(window + up))));
+    sum0 = add(sum0, index[i], 0);
+    sum1 = add(sum1, index[i], 1);
+    sum2 = add(sum2, index[i], 2);
+    sum3 = add(sum3, index[i], 3);
   }
-  hn::Store(lower, d, sums);
-  hn::Store(upper, d, sums + 32);
+  hn::Store(sum0, d, sums);
+  hn::Store(sum1, d, sums + pair_poses);
+  hn::Store(sum2, d, sums + 2 * pair_poses);
+  hn::Store(sum3, d, sums + 3 * pair_poses);
 }
 #else
 HWY_INLINE void AddPoints(const WindowPlanes& planes, const std::int32_t* index, std::size_t count,
                           std::uint16_t* HWY_RESTRICT sums) {
-  const hn::CappedTag<std::uint16_t, 32> d;
-  const std::size_t up = 4 * static_cast<std::size_t>(planes.stride);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t* window = planes.column_of_4 + index[i];
-    AddHalf(d, reinterpret_cast<const std::uint8_t*>(window), sums);
-    AddHalf(d, reinterpret_cast<const std::uint8_t*>(window + up), sums + block_poses / 2);
-  }
+  const hn::CappedTag<std::uint16_t, pair_poses> d;
+  const hn::Rebind<std::uint8_t, decltype(d)> d_byte;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t pair = 0; pair < block_cells / 2; ++pair)
+      for (std::size_t lane = 0; lane < pair_poses; lane += hn::Lanes(d)) {
+        std::uint16_t* sum = sums + pair * pair_poses + lane;
+        const auto value = hn::PromoteTo(d, hn::LoadU(d_byte, PairOfRows(planes, index[i], pair) + lane));
+        hn::Store(hn::Add(hn::Load(d, sum), value), d, sum);
+      }
 }
 #endif
 
@@ -106,12 +111,9 @@ bool ScoreBlock(const WindowPlanes& planes, const std::int32_t* index, std::size
     }
   }
   if (largest_total < threshold) return false;
-  for (int col = 0; col < block_cells; ++col) {
-    for (int row = 0; row < 4; ++row) {
-      scores[row * block_cells + col] = totals[4 * col + row];
-      scores[(row + 4) * block_cells + col] = totals[block_poses / 2 + 4 * col + row];
-    }
-  }
+  for (int row = 0; row < block_cells; ++row)
+    for (int col = 0; col < block_cells; ++col)
+      scores[row * block_cells + col] = totals[row / 2 * static_cast<int>(pair_poses) + 2 * col + row % 2];
   return true;
 }
 
@@ -147,7 +149,7 @@ bool score_block(const WindowPlanes& planes, const std::int32_t* index, std::siz
     for (int col = 0; col < block_cells; ++col) {
       std::int32_t sum = 0;
       for (std::size_t i = 0; i < points; ++i) {
-        sum += static_cast<std::int32_t>(planes.column_of_4[index[i] + row * planes.stride + col] & 255U);
+        sum += static_cast<std::int32_t>(planes.column_of_2[index[i] + row * planes.stride + col] & 255U);
       }
       scores[row * block_cells + col] = sum;
       largest = std::max(largest, sum);

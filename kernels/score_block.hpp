@@ -13,8 +13,8 @@ inline constexpr int block_poses = block_cells * block_cells;
 // 8 x 8 window that touches the map can be read whole; beyond them all is 0.
 struct WindowPlanes {
   const std::uint8_t* window_max = nullptr;    // [row][col]: maximum of the window that begins there
-  const std::uint32_t* column_of_4 = nullptr;  // [row][col]: four rows' values from there upwards, one
-                                               // byte each, the lowest row in the lowest byte
+  const std::uint16_t* column_of_2 = nullptr;  // [row][col]: two rows' values from there upwards, the lower
+                                               // row in the lower byte
   std::int32_t stride = 0;                     // elements a row of either plane
   std::int32_t width = 0;                      // of the field
   std::int32_t height = 0;

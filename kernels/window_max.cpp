@@ -15,6 +15,10 @@ void sliding_max_8(const std::uint8_t* in, std::size_t count, std::uint8_t* scra
   maximum(scratch, scratch + 4, count - 7, out);  // of 8
 }
 
+void interleave_2(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint16_t* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::uint16_t>(a[i] | b[i] << 8);
+}
+
 void interleave_4(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, const std::uint8_t* d,
                   std::size_t count, std::uint32_t* out) {
   for (std::size_t i = 0; i < count; ++i) {

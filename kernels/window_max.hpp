@@ -13,7 +13,9 @@ void sliding_max_8(const std::uint8_t* in, std::size_t count, std::uint8_t* scra
 // out[c] = max(a[c], b[c]).
 void maximum(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* out);
 
-// out[c]: bytes a[c], b[c], c_[c], d[c] from the lowest byte up.
+// out[c]: bytes a[c], b[c] from the lowest byte up.
+void interleave_2(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint16_t* out);
+// Bytes a[c], b[c], c_[c], d[c].
 void interleave_4(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, const std::uint8_t* d,
                   std::size_t count, std::uint32_t* out);
 

@@ -39,6 +39,9 @@ TEST(Maximum, TakesTheLargerByte) {
 
 TEST(Interleave, PutsTheFirstIntoTheLowestByte) {
   const Bytes a{0x01, 0xA1}, b{0x02, 0xA2}, c{0x03, 0xA3}, d{0x04, 0xA4};
+  std::vector<std::uint16_t> pairs(2);
+  kernels::interleave_2(a.data(), b.data(), 2, pairs.data());
+  EXPECT_EQ(pairs, (std::vector<std::uint16_t>{0x0201U, 0xA2A1U}));
   std::vector<std::uint32_t> out(2);
   kernels::interleave_4(a.data(), b.data(), c.data(), d.data(), 2, out.data());
   EXPECT_EQ(out, (std::vector<std::uint32_t>{0x04030201U, 0xA4A3A2A1U}));
