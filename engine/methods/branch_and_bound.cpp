@@ -66,7 +66,7 @@ class BranchAndBound {
   }
 
   void bound_and_collect() {
-    constexpr double promising_share = 0.03;  // of the coarse tiles: the best pose is mostly in one of them
+    constexpr double promising_share = 0.015;  // of the coarse tiles: the best pose is mostly in one of them
     constexpr std::size_t dives = 24;
     const BlockSet blocks = blocks_of(query_.domain);
     const BoundLevel small{
