@@ -46,6 +46,8 @@ struct BlockMask {
   }
 };
 
+using SharedMask = std::shared_ptr<const BlockMask>;
+
 // An empty mask over the cells [col0, col1] x [row0, row1] of the grid.
 BlockMask make_block_mask(int col0, int row0, int col1, int row1);
 

@@ -13,8 +13,6 @@
 
 namespace landfall::internal {
 
-using SharedMask = std::shared_ptr<const BlockMask>;
-
 // One part of the prior (a plain prior has one). Headings without poses have a null mask.
 struct DomainComponent {
   std::vector<SharedMask> mask_of_heading;

@@ -67,9 +67,9 @@ const raycast::Scene& PreparedState::scene() const {
   });
 }
 
-std::shared_ptr<const BlockMask> PreparedState::free_mask(double robot_radius_m, int step_cells) const {
+SharedMask PreparedState::free_mask(double robot_radius_m, int step_cells) const {
   const std::scoped_lock lock(masks_mutex_);
-  std::shared_ptr<const BlockMask>& mask = masks_[{robot_radius_m, step_cells}];
+  SharedMask& mask = free_cells_[{robot_radius_m, step_cells}].mask;
   if (mask != nullptr) return mask;
   std::vector<std::int32_t> clearance;  // squared distance to the nearest cell that is not free
   const double radius_cells = robot_radius_m / grid_.resolution_m;
@@ -96,6 +96,17 @@ std::shared_ptr<const BlockMask> PreparedState::free_mask(double robot_radius_m,
   return mask;
 }
 
+const SearchTiles* PreparedState::tiles_of(const SharedMask& free) const {
+  const FreeCells* cells = nullptr;
+  {
+    const std::scoped_lock lock(masks_mutex_);
+    for (const auto& [key, known] : free_cells_)
+      if (known.mask == free) cells = &known;
+  }
+  if (cells == nullptr) return nullptr;
+  return &cells->tiles.get([&] { return SearchTiles(blocks_of(std::span(&free, 1))); });
+}
+
 std::size_t PreparedState::memory_bytes() const {
   std::size_t bytes = grid_.cells.capacity();
   if (const auto* distances = squared_distance_cells_.if_built()) bytes += 4 * distances->capacity();
@@ -107,7 +118,10 @@ std::size_t PreparedState::memory_bytes() const {
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();
   const std::scoped_lock lock(masks_mutex_);
-  for (const auto& [key, mask] : masks_) bytes += 8 * mask->words.capacity();
+  for (const auto& [key, cells] : free_cells_) {
+    bytes += 8 * cells.mask->words.capacity();
+    if (const auto* tiles = cells.tiles.if_built()) bytes += tiles->memory_bytes();
+  }
   return bytes;
 }
 

@@ -10,6 +10,7 @@
 
 #include "engine/block_mask.hpp"
 #include "engine/search_tables.hpp"
+#include "engine/tile_layout.hpp"
 #include "landfall/prepared_map.hpp"
 #include "raycast/scene.hpp"
 
@@ -54,7 +55,9 @@ class PreparedState {
   // The map, in its own frame, ready for rays: a plan by its walls, a grid in the way that is the fastest.
   [[nodiscard]] const raycast::Scene& scene() const;
   // Cells where a robot of this radius may stand, on every step_cells-th column and row.
-  [[nodiscard]] std::shared_ptr<const BlockMask> free_mask(double robot_radius_m, int step_cells) const;
+  [[nodiscard]] SharedMask free_mask(double robot_radius_m, int step_cells) const;
+  // The tiles over such a mask, built on first need; null where the mask is another.
+  [[nodiscard]] const SearchTiles* tiles_of(const SharedMask& free) const;
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
@@ -69,7 +72,11 @@ class PreparedState {
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
   mutable std::mutex masks_mutex_;
-  mutable std::map<std::pair<double, int>, std::shared_ptr<const BlockMask>> masks_;
+  struct FreeCells {
+    SharedMask mask;
+    Lazy<SearchTiles> tiles;
+  };
+  mutable std::map<std::pair<double, int>, FreeCells> free_cells_;  // by radius in metres and step in cells
 };
 
 }  // namespace landfall::internal

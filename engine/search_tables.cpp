@@ -11,9 +11,6 @@ namespace {
 
 using kernels::block_cells;
 
-// In half blocks. The smallest holds a block and the rounding of its offset to a half block.
-constexpr std::array<int, BoundTable::window_sizes> sizes{3, 4, 6, 10, 18};
-
 std::uint8_t to_level(std::uint8_t value) {
   return static_cast<std::uint8_t>((value * kernels::bound_levels + 254) / 255);
 }
@@ -41,16 +38,6 @@ int divide_up(int a, int b) {
 }
 
 }  // namespace
-
-int BoundTable::window_halves(int index) {
-  return sizes[static_cast<std::size_t>(index)];
-}
-
-int BoundTable::window_index(int halves) {
-  for (int i = 0; i < window_sizes; ++i)
-    if (sizes[static_cast<std::size_t>(i)] >= halves) return i;
-  return -1;
-}
 
 BoundTable::BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, int half_rows, int block_cells)
     : block_cells_(block_cells),

@@ -2,6 +2,7 @@
 // (window planes) to coarse tables for groups of headings (bound tables).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,14 +19,18 @@ class BoundTable {
  public:
   static constexpr int window_sizes = 5;
   static constexpr int phases = 2;
+  // In half blocks. The smallest holds a block and the rounding of its offset to a half block.
+  static constexpr std::array<int, window_sizes> sizes{3, 4, 6, 10, 18};
 
   // From maxima over half-block cells: halves[row * half_cols + col].
   BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, int half_rows, int block_cells);
 
   [[nodiscard]] int block_cells() const { return block_cells_; }
   // Window size of index i in half blocks, and the first index that covers `halves` of them; -1: none.
-  static int window_halves(int index);
-  static int window_index(int halves);
+  static int window_halves(int index) { return sizes[static_cast<std::size_t>(index)]; }
+  static int window_index(int halves) {
+    return halves > sizes.back() ? -1 : index_of_halves[static_cast<std::size_t>(halves)];
+  }
   [[nodiscard]] kernels::BoundPlanes planes() const;
   // First element of a plane.
   [[nodiscard]] std::int32_t plane(int window_index, int phase_row, int phase_col) const {
@@ -37,6 +42,13 @@ class BoundTable {
   [[nodiscard]] std::size_t memory_bytes() const { return 4 * column_of_4_.capacity(); }
 
  private:
+  static constexpr std::array<int, sizes.back() + 1> index_of_halves = [] {
+    std::array<int, sizes.back() + 1> index{};
+    for (std::size_t halves = 0; halves < index.size(); ++halves)
+      while (sizes[static_cast<std::size_t>(index[halves])] < static_cast<int>(halves)) ++index[halves];
+    return index;
+  }();
+
   void fill_planes(int index, const std::vector<std::uint8_t>& halves, int half_cols, int half_rows);
 
   int block_cells_;

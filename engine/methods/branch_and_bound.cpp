@@ -4,6 +4,7 @@
 // survives it is bounded heading by heading and then scored 64 poses at a time, best bound first.
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "engine/methods/block_scorer.hpp"
 #include "engine/methods/dense_bounds.hpp"
@@ -43,7 +44,7 @@ class BranchAndBound {
   // The headings in the middle come first: the robot is mostly where a prior says, and a good pose early
   // excludes the others.
   void take_all_blocks() {
-    const BlockSet blocks = blocks_of(query_.domain);
+    const BlockSet blocks = blocks_of(query_.domain.mask_of_heading);
     std::vector<int> groups;
     for (int group = 0; group < groups_.count(); ++group)
       if (has_poses(group)) groups.push_back(group);
@@ -65,18 +66,28 @@ class BranchAndBound {
                        [](const SharedMask& mask) { return mask != nullptr; });
   }
 
+  // Where the prior is anywhere in the free space.
+  [[nodiscard]] const SearchTiles* tiles_of_the_map() const {
+    const std::vector<SharedMask>& masks = query_.domain.mask_of_heading;
+    const bool all_alike = std::all_of(masks.begin(), masks.end(),
+                                       [&](const SharedMask& mask) { return mask == masks.front(); });
+    return all_alike ? query_.map.tiles_of(masks.front()) : nullptr;
+  }
+
   void bound_and_collect() {
     constexpr double promising_share = 0.015;  // of the coarse tiles: the best pose is mostly in one of them
     constexpr std::size_t dives = 24;
-    const BlockSet blocks = blocks_of(query_.domain);
+    std::optional<SearchTiles> own_tiles;
+    const SearchTiles* tiles = tiles_of_the_map();
+    if (tiles == nullptr) tiles = &own_tiles.emplace(blocks_of(query_.domain.mask_of_heading));
     const BoundLevel small{
-        .query = query_, .table = query_.map.bound_table(), .groups = groups_, .layout = TileLayout(blocks)};
+        .query = query_, .table = query_.map.bound_table(), .groups = groups_, .layout = tiles->small};
     const BoundLevel large{.query = query_,
                            .table = query_.map.coarse_bound_table(),
                            .groups = groups_.doubled(),
-                           .layout = TileLayout(doubled(blocks))};
+                           .layout = tiles->large};
     CoarseBounds coarse(large);
-    FineBounds fine(small, coarse, tile_of_lanes(large.layout, small.layout));
+    FineBounds fine(small, coarse, tiles->tile_of_lane);
     for (int first = 0; first < large.groups.count() && !query_.out_of_time();
          first += coarse.groups_at_a_time()) {
       const int last = std::min(large.groups.count(), first + coarse.groups_at_a_time());

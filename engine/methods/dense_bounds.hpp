@@ -8,8 +8,8 @@
 
 #include "engine/methods/group_points.hpp"
 #include "engine/methods/heading_groups.hpp"
-#include "engine/methods/tile_layout.hpp"
 #include "engine/query.hpp"
+#include "engine/tile_layout.hpp"
 
 namespace landfall::internal {
 
@@ -28,7 +28,7 @@ struct BoundLevel {
   const Query& query;
   const BoundTable& table;
   HeadingGroups groups;
-  TileLayout layout;
+  const TileLayout& layout;
 
   // The sum from which on a block's bound is at least `bound`, given points that no window bounds.
   static int least_sum(std::int64_t bound, std::int32_t unbounded);
@@ -61,10 +61,10 @@ class CoarseBounds {
 // ones; each holds two fine ones.
 class FineBounds {
  public:
-  FineBounds(const BoundLevel& level, const CoarseBounds& coarse, std::vector<std::int32_t> tile_of_lane)
+  FineBounds(const BoundLevel& level, const CoarseBounds& coarse, std::span<const std::int32_t> tile_of_lane)
       : level_(level),
         coarse_(coarse),
-        tile_of_lane_(std::move(tile_of_lane)),
+        tile_of_lane_(tile_of_lane),
         points_(static_cast<std::size_t>(level.groups.count())) {}
 
   // The best block of every tile and group that a coarse block of at least `bound` leads to; the best `most`
@@ -85,7 +85,7 @@ class FineBounds {
 
   const BoundLevel& level_;
   const CoarseBounds& coarse_;
-  std::vector<std::int32_t> tile_of_lane_;
+  std::span<const std::int32_t> tile_of_lane_;
   std::vector<GroupPoints> points_;  // [group], where built
 };
 

@@ -14,14 +14,35 @@ namespace {
 // What a build needs meanwhile.
 struct Workspace {
   std::vector<std::int32_t> col_half, row_half, size_halves;
-  struct Merged {
-    std::int32_t plane;
-    std::int32_t col;
-    std::int32_t row;
-    std::uint32_t weight;
-  };
-  std::vector<Merged> merged;
+  std::vector<std::uint32_t> run_begin;  // of equal windows side by side, and the end of the last
+  std::vector<MergedPoint> merged;
+
+  void resize(std::size_t points) {
+    col_half.resize(points);
+    row_half.resize(points);
+    size_halves.resize(points);
+    run_begin.resize(points + 1);
+    merged.clear();
+  }
 };
+
+// How many. No branch hangs on where a run ends, which cannot be foretold (bench_search).
+std::size_t find_runs(Workspace& work) {
+  const std::size_t points = work.col_half.size();
+  const std::int32_t* col = work.col_half.data();
+  const std::int32_t* row = work.row_half.data();
+  const std::int32_t* size = work.size_halves.data();
+  std::uint32_t* begin = work.run_begin.data();
+  std::size_t runs = 1;
+  begin[0] = 0;
+  for (std::size_t i = 1; i < points; ++i) {
+    begin[runs] = static_cast<std::uint32_t>(i);
+    const std::int32_t differs = (col[i] ^ col[i - 1]) | (row[i] ^ row[i - 1]) | (size[i] ^ size[i - 1]);
+    runs += differs != 0 ? 1 : 0;
+  }
+  begin[runs] = static_cast<std::uint32_t>(points);
+  return runs;
+}
 
 }  // namespace
 
@@ -30,12 +51,9 @@ void GroupPoints::build(const EndPoints& points, const Lattice& lattice, const B
   const double step_rad = lattice.heading_step_rad();
   const double center_rad = 0.5 * (first + last - 1) * step_rad;
   const double half_rad = 0.5 * (last - 1 - first) * step_rad;
-  const std::size_t count = points.size();
   static thread_local Workspace work;
-  work.col_half.resize(count);
-  work.row_half.resize(count);
-  work.size_halves.resize(count);
-  kernels::point_windows(points.x_cells_by_beam.data(), points.y_cells_by_beam.data(), count,
+  work.resize(points.size());
+  kernels::point_windows(points.x_cells_by_beam.data(), points.y_cells_by_beam.data(), points.size(),
                          {.cos_center = std::cos(center_rad),
                           .sin_center = std::sin(center_rad),
                           .sin_half = half_rad >= std::numbers::pi / 2.0 ? 1.0 : std::sin(half_rad),
@@ -44,52 +62,53 @@ void GroupPoints::build(const EndPoints& points, const Lattice& lattice, const B
                           .height_cells = lattice.height_cells,
                           .block_cells = table.block_cells()},
                          work.col_half.data(), work.row_half.data(), work.size_halves.data());
-  constexpr std::size_t heaviest = (std::size_t{1} << most_lists) - 1;
-  std::array<std::int32_t, most_lists> points_of_list{};
-  work.merged.clear();
+  constexpr std::uint32_t heaviest = (1U << most_lists) - 1;
   unbounded_ = 0;
-  for (std::size_t i = 0; i < count;) {
-    const std::size_t begin = i;
-    const std::int32_t col_half = work.col_half[begin];
-    const std::int32_t row_half = work.row_half[begin];
+  const std::size_t runs = find_runs(work);
+  for (std::size_t run = 0; run < runs; ++run) {
+    const std::uint32_t begin = work.run_begin[run];
+    std::uint32_t weight = work.run_begin[run + 1] - begin;
     const std::int32_t size = work.size_halves[begin];
-    while (i < count && i - begin < heaviest && work.col_half[i] == col_half &&
-           work.row_half[i] == row_half && work.size_halves[i] == size)
-      ++i;
     if (size == 0) continue;
-    const auto weight = static_cast<std::uint32_t>(i - begin);
     const int window = BoundTable::window_index(size);
     if (window < 0) {
       unbounded_ += static_cast<std::int32_t>(weight);
       continue;
     }
-    work.merged.push_back({.plane = table.plane(window, row_half & 1, col_half & 1),
-                           .col = (col_half >> 1) + BoundTable::pad_cols,
-                           .row = (row_half >> 1) + BoundTable::pad_rows,
-                           .weight = weight});
-    for (std::uint32_t bits = weight; bits != 0; bits &= bits - 1)
-      ++points_of_list[static_cast<std::size_t>(most_lists - 1 - std::countr_zero(bits))];
+    MergedPoint point{.plane = table.plane(window, work.row_half[begin] & 1, work.col_half[begin] & 1),
+                      .col = (work.col_half[begin] >> 1) + BoundTable::pad_cols,
+                      .row = (work.row_half[begin] >> 1) + BoundTable::pad_rows,
+                      .weight = weight};
+    for (; weight > heaviest; weight -= heaviest) {
+      point.weight = heaviest;
+      work.merged.push_back(point);
+    }
+    point.weight = weight;
+    work.merged.push_back(point);
   }
-  std::size_t first_list = 0;
-  while (first_list + 1 < most_lists && points_of_list[first_list] == 0) ++first_list;
-  lists_ = static_cast<int>(most_lists - first_list);
-  std::int32_t at = 0;
-  for (std::size_t list = first_list; list < most_lists; ++list) {
-    list_begin_[list - first_list] = list_end_[list - first_list] = at;
-    at += points_of_list[list];
-  }
-  const auto room = static_cast<std::size_t>(at) + kernels::point_padding;
+  fill_lists(work.merged, points.size());
+}
+
+void GroupPoints::fill_lists(const std::vector<MergedPoint>& merged, std::size_t points) {
+  const std::size_t room = points + kernels::point_padding;  // a point of weight w stands in at most w lists
   plane_.resize(room);
   col_.resize(room);
   row_.resize(room);
-  for (const Workspace::Merged& point : work.merged)
-    for (std::uint32_t bits = point.weight; bits != 0; bits &= bits - 1) {
-      const auto list = static_cast<std::size_t>(lists_ - 1 - std::countr_zero(bits));
-      const auto to = static_cast<std::size_t>(list_end_[list]++);
-      plane_[to] = point.plane;
-      col_[to] = point.col;
-      row_[to] = point.row;
+  std::uint32_t all_bits = 1;  // one list at least
+  for (const MergedPoint& point : merged) all_bits |= point.weight;
+  lists_ = static_cast<int>(std::bit_width(all_bits));
+  std::size_t at = 0;
+  for (int list = 0; list < lists_; ++list) {
+    const int bit = lists_ - 1 - list;
+    list_begin_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(at);
+    for (const MergedPoint& point : merged) {
+      plane_[at] = point.plane;
+      col_[at] = point.col;
+      row_[at] = point.row;
+      at += (point.weight >> bit) & 1U;
     }
+    list_end_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(at);
+  }
 }
 
 kernels::BoundPoints GroupPoints::view() const {

@@ -16,6 +16,14 @@ inline std::int64_t table_units(std::int32_t score) {
   return (std::int64_t{score} * kernels::bound_levels + 254) / 255;
 }
 
+// Neighbouring points that share a window.
+struct MergedPoint {
+  std::int32_t plane;
+  std::int32_t col;
+  std::int32_t row;
+  std::uint32_t weight;
+};
+
 class GroupPoints {
  public:
   // Headings [first, last) of the lattice.
@@ -28,6 +36,8 @@ class GroupPoints {
 
  private:
   static constexpr int most_lists = 8;
+
+  void fill_lists(const std::vector<MergedPoint>& merged, std::size_t points);
 
   std::vector<std::int32_t> plane_, col_, row_;  // one list after the other
   std::array<std::int32_t, most_lists> list_begin_{};

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "engine/domain.hpp"
+#include "engine/block_mask.hpp"
 #include "kernels/bound_tile.hpp"
 
 namespace landfall::internal {
@@ -25,8 +26,8 @@ struct BlockSet {
                0;
   }
 };
-// Blocks of kernels::block_cells.
-BlockSet blocks_of(const Domain& domain);
+// Blocks of kernels::block_cells. Null masks hold none.
+BlockSet blocks_of(std::span<const SharedMask> masks);
 // Blocks twice as large.
 BlockSet doubled(const BlockSet& blocks);
 
@@ -49,9 +50,23 @@ struct TileLayout {
 
   explicit TileLayout(const BlockSet& blocks);
   [[nodiscard]] std::size_t size() const { return tiles.size(); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return sizeof(Tile) * tiles.capacity() + sizeof(std::uint16_t) * allowed.capacity() +
+           sizeof(Run) * runs.capacity();
+  }
 };
 
-// Per lane of `coarse` the tile of `fine` that holds its four parts; -1: none.
-std::vector<std::int32_t> tile_of_lanes(const TileLayout& coarse, const TileLayout& fine);
+// Both levels of the dense bounds.
+struct SearchTiles {
+  TileLayout small;  // of the blocks given
+  TileLayout large;  // of blocks twice as large
+  std::vector<std::int32_t>
+      tile_of_lane;  // per lane of `large` the tile of `small` that holds its four parts; -1: none
+
+  explicit SearchTiles(const BlockSet& blocks);
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return small.memory_bytes() + large.memory_bytes() + sizeof(std::int32_t) * tile_of_lane.capacity();
+  }
+};
 
 }  // namespace landfall::internal

@@ -1,4 +1,4 @@
-#include "engine/methods/tile_layout.hpp"
+#include "engine/tile_layout.hpp"
 
 #include <algorithm>
 
@@ -8,9 +8,9 @@ using kernels::tile_blocks;
 using kernels::tile_cols;
 using kernels::tile_rows;
 
-BlockSet blocks_of(const Domain& domain) {
+BlockSet blocks_of(std::span<const SharedMask> shared) {
   std::vector<const BlockMask*> masks;
-  for (const SharedMask& mask : domain.mask_of_heading)
+  for (const SharedMask& mask : shared)
     if (mask != nullptr && !mask->words.empty() && (masks.empty() || masks.back() != mask.get()))
       masks.push_back(mask.get());
   BlockSet blocks;
@@ -88,6 +88,8 @@ TileLayout::TileLayout(const BlockSet& blocks) {
   }
 }
 
+namespace {
+
 std::vector<std::int32_t> tile_of_lanes(const TileLayout& coarse, const TileLayout& fine) {
   int last_col = 0;
   int last_row = 0;
@@ -113,5 +115,10 @@ std::vector<std::int32_t> tile_of_lanes(const TileLayout& coarse, const TileLayo
     }
   return tile_of_lane;
 }
+
+}  // namespace
+
+SearchTiles::SearchTiles(const BlockSet& blocks)
+    : small(blocks), large(doubled(blocks)), tile_of_lane(tile_of_lanes(large, small)) {}
 
 }  // namespace landfall::internal
