@@ -100,6 +100,7 @@ def measure(building: Building, others: Sequence[Building], every: int, say: Cal
     numbers["consistent"] = consistent(building, answers if every == 1 else None)
     say("one at a time")
     numbers["latency"] = latency(building, 100 // min(every, 5))
+    numbers["tracking"] = tracking(building, 100 // min(every, 5))
     say("other buildings' maps")
     numbers["foreign"] = foreign(building, others, 50 // min(every, 10))
     say("windows")
@@ -159,6 +160,16 @@ def latency(building: Building, count: int) -> dict:
     _, tally = building.ask(queries, one_at_a_time=True)
     median, p95, longest = np.percentile(tally.search_ms, [50, 95, 100])
     return {"queries": len(queries), "median_ms": median, "p95_ms": p95, "max_ms": longest}
+
+
+def tracking(building: Building, count: int) -> dict:
+    """Each scan in a window of 1 m and 30 degrees (full width) whose middle is off the truth, all threads."""
+    off = landfall.Pose2(0.2, -0.13, 0.05)
+    search_ms = []
+    for k in _evenly(range(len(building.scans)), count):
+        window = landfall.Window(building.truth[k][1] * off, 0.5, 0.5, math.radians(15.0))
+        search_ms.append(landfall.search(building.map, window, building.scans[k]).times.total_ms)
+    return {"queries": len(search_ms), "median_ms": float(np.median(search_ms))}
 
 
 def foreign(building: Building, others: Sequence[Building], count: int) -> dict:

@@ -26,13 +26,23 @@ from growth import draw_growth, exponent_table, growth_table, load_growth
 from landfall.commands.tables import print_table
 from results_page import rewrite_measured, table
 from suite_tables import suite_sections
-from targets import BUILDINGS, TRACE1, WEAN_HALL, probability_table, target_table, verdict_table
+from targets import (
+    BUILDINGS,
+    TRACE1,
+    WEAN_HALL,
+    WILLOW_GARAGE,
+    probability_table,
+    target_table,
+    verdict_table,
+)
+from willow_garage import willow_garage
 
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "build" / "bench" / "results"
 GROWTH = OUT / "bench_growth.json"
 GROWTH_PICTURE = ROOT / "docs" / "growth.png"
 QUICK_EVERY = 10
+DRIVES = {"wean_hall": WEAN_HALL, "willow_garage": WILLOW_GARAGE, "trace1": TRACE1}
 
 
 def parse(arguments: list[str] | None) -> argparse.Namespace:
@@ -41,7 +51,9 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--buildings", default=",".join(NAMES), help="some of: " + ", ".join(NAMES))
     parser.add_argument("--quick", action="store_true", help=f"every {QUICK_EVERY}th query")
-    parser.add_argument("--no-drives", action="store_true", help="leave out Wean Hall and the bag")
+    parser.add_argument(
+        "--no-drives", action="store_true", help="leave out Wean Hall, Willow Garage and the bag"
+    )
     parser.add_argument("--json", type=Path, default=OUT / "report.json", help="all numbers, as they come")
     parser.add_argument("--results", type=Path, default=ROOT / "bench" / "RESULTS.md", help="what to rewrite")
     options = parser.parse_args(arguments)
@@ -73,6 +85,10 @@ def measure_all(data: Path, options: argparse.Namespace, measured: dict) -> Iter
     for drive in ("robotdata1", "robotdata5") if wean.is_dir() and not options.no_drives else ():
         say(f"Wean Hall: {drive}")
         measured["wean_hall"][drive] = wean_hall(wean, drive, OUT / f"wean_hall_{drive}.png")
+        yield
+    if (data / "maps").is_dir() and not options.no_drives:
+        say("Willow Garage")
+        measured["willow_garage"]["willow_garage"] = willow_garage(data / "maps", every)
         yield
     if bag.is_file() and not options.no_drives:
         say("bag: trace1")
@@ -108,7 +124,7 @@ def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
             table(rows)
             for rows in (verdict_table(measured["buildings"]), probability_table(measured["buildings"]))
         )
-    for name, targets in (("wean_hall", WEAN_HALL), ("trace1", TRACE1)):
+    for name, targets in DRIVES.items():
         if measured[name]:
             parts[name] = table(target_table(targets, measured[name]))
     for name, (date, rows) in suite_sections(OUT).items():
@@ -120,7 +136,7 @@ def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
 
 
 def print_tables(measured: dict) -> None:
-    for title, targets in (("buildings", BUILDINGS), ("wean_hall", WEAN_HALL), ("trace1", TRACE1)):
+    for title, targets in {"buildings": BUILDINGS, **DRIVES}.items():
         if measured[title]:
             header, *rows = target_table(targets, measured[title])
             print_table(([cell.replace("**", "") for cell in row] for row in rows), header)
@@ -133,7 +149,7 @@ def main(arguments: list[str] | None = None) -> int:
     if not data.is_dir():
         say(f"{data}: no real data: set LANDFALL_DATA")
     OUT.mkdir(parents=True, exist_ok=True)
-    measured: dict = {"buildings": {}, "wean_hall": {}, "trace1": {}}
+    measured: dict = {"buildings": {}, **{name: {} for name in DRIVES}}
     for _ in measure_all(data, options, measured):
         options.json.write_text(json.dumps({"run": run, **measured}) + "\n", encoding="utf-8")
     print_tables(measured)

@@ -55,9 +55,13 @@ UNITS = {"": 1.0, "%": 100.0, "cm": 100.0, "deg": 1.0, "ms": 1.0, "s": 1.0, "MB"
 
 ONE_SCAN = {"intel": 99.0, "csail": 98.5, "aces": 99.5, "acapulco": 99.5, "infinite_corridor": 94.0}
 MEDIAN_CM = {"intel": 3.0, "csail": 3.0, "aces": 3.0, "acapulco": 4.0, "infinite_corridor": 4.0}
-MEDIAN_MS = {"intel": 10.0, "infinite_corridor": 300.0}
-PREPARED_S = {"infinite_corridor": 2.0}
-PREPARED_MB = {"infinite_corridor": 600.0}
+MEDIAN_MS = {"intel": 1.2, "csail": 3.0, "aces": 3.5, "acapulco": 12.0, "infinite_corridor": 40.0}
+P95_MS = {"intel": 5.0, "infinite_corridor": 150.0}
+MAX_MS = {"intel": 40.0}
+BATCH = {"intel": 700.0}
+TRACKING_MS = {"intel": 0.1}
+PREPARED_S = {"intel": 0.06, "infinite_corridor": 2.0}
+PREPARED_MB = {"infinite_corridor": 237.0}  # 12 bytes a cell
 
 BUILDINGS = (
     Target("queries asked", "", ("single", "queries"), 0),
@@ -72,9 +76,10 @@ BUILDINGS = (
     Target("--consistent: right", "%", ("consistent", "success_rate"), at_least=99.5),
     Target("equal to exhaustive search", "%", ("exhaustive", "share"), 0, at_least=100.0),
     Target("search_ms: median", "ms", ("latency", "median_ms"), 1, at_most=MEDIAN_MS),
-    Target("search_ms: 95th percentile", "ms", ("latency", "p95_ms"), 1),
-    Target("search_ms: largest", "ms", ("latency", "max_ms"), 1),
-    Target("batch", "scans/s", ("single", "scans_per_s"), 1),
+    Target("search_ms: 95th percentile", "ms", ("latency", "p95_ms"), 1, at_most=P95_MS),
+    Target("search_ms: largest", "ms", ("latency", "max_ms"), 1, at_most=MAX_MS),
+    Target("window of 1 m, 30 deg: median", "ms", ("tracking", "median_ms"), at_most=TRACKING_MS),
+    Target("batch", "scans/s", ("single", "scans_per_s"), 1, at_least=BATCH),
     Target("map prepared in", "s", ("prepare", "seconds"), at_most=PREPARED_S),
     Target("prepared map holds", "MB", ("prepare", "bytes"), 0, at_most=PREPARED_MB),
 )
@@ -88,6 +93,13 @@ WEAN_HALL = (
     ),
     Target("--consistent: both", "%", ("tied", "right"), 1, at_least=90.0),
     Target("--consistent: steps off odometry", "", ("tied", "jumps"), 0, at_most=0.0),
+)
+WILLOW_GARAGE = (
+    Target("poses asked", "", ("asked",), 0),
+    Target("right", "%", ("success_rate",), 1, at_least=99.0),
+    Target("of the right, found", "%", ("right_that_are_found",), 1),
+    Target("search_ms: median", "ms", ("median_ms",), 1, at_most=15.0),
+    Target("search_ms: 95th percentile", "ms", ("p95_ms",), 1),
 )
 TRACE1 = (
     Target("scans of the second half asked", "", ("asked",), 0),

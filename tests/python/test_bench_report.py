@@ -35,7 +35,18 @@ def test_a_part_without_place_is_an_error(module, tmp_path):
 
 
 def test_the_page_has_a_place_for_every_part(module):
-    parts = ("run", "buildings", "verdicts", "wean_hall", "trace1", "kernels", "raycast", "search", "peers")
+    parts = (
+        "run",
+        "buildings",
+        "verdicts",
+        "wean_hall",
+        "willow_garage",
+        "trace1",
+        "kernels",
+        "raycast",
+        "search",
+        "peers",
+    )
     parts += ("isa", "executor", "growth")
     module("results_page").replace_measured((BENCH / "RESULTS.md").read_text(), dict.fromkeys(parts, ""))
 
