@@ -32,7 +32,7 @@ const Executor* find(std::string_view name) {
   for (const Executor* one : table) known += (known.empty() ? "" : " or ") + std::string(one->name);
   throw Error(ErrorCode::unknown_name,
               "environment variable LANDFALL_EXECUTOR is \"" + name + "\", expected " + known +
-                  (name == "openmp" ? ": this build of landfall is without OpenMP" : ""));
+                  (name == "openmp" ? ": this build is without OpenMP (CMake option LANDFALL_OPENMP)" : ""));
 }
 
 const Executor* of_environment() {

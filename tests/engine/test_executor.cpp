@@ -64,6 +64,8 @@ TEST(Executors, EnvironmentDecides) {
       EXPECT_EQ(error.code(), ErrorCode::unknown_name);
       EXPECT_THAT(error.what(), HasSubstr("LANDFALL_EXECUTOR is \"" + std::string(wanted) + "\""));
       EXPECT_THAT(error.what(), HasSubstr(names.front()));
+      const bool lacks_openmp = std::string(wanted) == "openmp";
+      EXPECT_THAT(error.what(), HasSubstr(lacks_openmp ? "CMake option LANDFALL_OPENMP" : names.back()));
     }
   }
 }
