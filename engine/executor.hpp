@@ -1,9 +1,11 @@
 // The schedulers behind parallel.hpp, chosen by the environment variable LANDFALL_EXECUTOR:
-//   tbb      oneTBB (the default): callers share one set of threads; inside a host's task its arena is used
+//   tbb      oneTBB (the default): callers share one set of threads. The arena of the calling thread is used,
+//            never more threads than it has
 //   openmp   for hosts that run on OpenMP and set its thread counts: every calling thread has a team of its
-//   own
-// Inside a host's region of the other scheduler, and inside an OpenMP region that may not nest
-// (omp_get_max_active_levels), work runs in the calling thread alone: the host has its threads busy.
+//            own. Inside a region, a team of what the host offers there (omp_get_max_threads); 1 where
+//            regions may not nest (omp_get_max_active_levels)
+// Inside a host's region of the other scheduler work runs in the calling thread alone: the host has its
+// threads busy. A build without OpenMP (CMake option LANDFALL_OPENMP) cannot see OpenMP's regions.
 // Embree builds its scenes with oneTBB whatever is chosen here.
 #pragma once
 
@@ -18,7 +20,7 @@ struct Executor {
   int (*thread_count)(int threads);
   // Called with two indices and two threads at least.
   void (*parallel_for)(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
-  // This thread runs a task of this scheduler's, and is to start no threads besides.
+  // This thread is inside a region of this scheduler's: no other scheduler is to start threads beside it.
   bool (*host_is_spread)();
 };
 

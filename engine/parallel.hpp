@@ -8,8 +8,8 @@
 
 namespace landfall::internal {
 
-// Threads that `threads` asks for: itself, as far as the machine has them, or all that the caller's
-// arena or OpenMP settings offer for 0. 1 where the host has spread its work already.
+// Threads that `threads` asks for: itself, as far as the caller's arena or OpenMP settings offer them, or all
+// of these for 0. 1 where the host has spread its work by another scheduler.
 int thread_count(int threads);
 
 // body(i) for i in [0, count), on up to `threads` threads (0: all; 1: in this thread, in order).

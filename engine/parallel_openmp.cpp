@@ -17,16 +17,16 @@ namespace landfall::internal {
 namespace {
 
 // Level 0 is outside of all regions of more than one thread.
-bool may_not_nest() {
-  const int level = omp_get_active_level();
-  return level > 0 && level >= omp_get_max_active_levels();
+bool inside_openmp_region() {
+  return omp_get_active_level() > 0;
 }
 
 int openmp_thread_count(int threads) {
-  if (may_not_nest()) return 1;
+  const bool inside = inside_openmp_region();
+  if (inside && omp_get_active_level() >= omp_get_max_active_levels()) return 1;
   const int offered = omp_get_max_threads();
-  const int wanted = threads > 0 ? std::min(threads, std::max(omp_get_num_procs(), offered)) : offered;
-  return std::min(wanted, omp_get_thread_limit());
+  const int most = inside ? offered : std::max(omp_get_num_procs(), offered);
+  return std::min(threads > 0 ? std::min(threads, most) : offered, omp_get_thread_limit());
 }
 
 void openmp_parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
@@ -42,6 +42,6 @@ void openmp_parallel_for(std::size_t count, int threads, const std::function<voi
 const Executor openmp_executor{.name = "openmp",
                                .thread_count = openmp_thread_count,
                                .parallel_for = openmp_parallel_for,
-                               .host_is_spread = may_not_nest};
+                               .host_is_spread = inside_openmp_region};
 
 }  // namespace landfall::internal

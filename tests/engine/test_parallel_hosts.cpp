@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <chrono>
@@ -15,7 +16,11 @@
 #include "rooms.hpp"
 #include "same_answer.hpp"
 
-extern "C" void omp_set_max_active_levels(int levels);
+extern "C" {
+int omp_get_max_active_levels();
+void omp_set_max_active_levels(int levels);
+void omp_set_num_threads(int threads);
+}
 
 namespace landfall {
 namespace {
@@ -42,6 +47,18 @@ class Crowd {
   std::atomic<int> visits_{0};
 };
 
+// How deep a host lets OpenMP's regions nest, until it goes out of scope.
+class ActiveLevels {
+ public:
+  explicit ActiveLevels(int levels) { omp_set_max_active_levels(levels); }
+  ~ActiveLevels() { omp_set_max_active_levels(before_); }
+  ActiveLevels(const ActiveLevels&) = delete;
+  ActiveLevels& operator=(const ActiveLevels&) = delete;
+
+ private:
+  const int before_ = omp_get_max_active_levels();
+};
+
 using Task = std::function<void(int)>;
 
 void run_in_openmp(int tasks, const Task& task) {
@@ -62,6 +79,7 @@ class InsideAHost : public ::testing::TestWithParam<std::tuple<std::string, std:
 
  private:
   const testing::UsedExecutor used_{std::get<1>(GetParam())};
+  const ActiveLevels flat_{1};
 };
 
 INSTANTIATE_TEST_SUITE_P(Hosts, InsideAHost,
@@ -127,22 +145,121 @@ TEST_P(InsideAHost, SearchesShareAFreshMap) {
   }
 }
 
+// The least that one of a host's tasks gets which asks for so many threads.
+int least_thread_count(int threads) {
+  std::atomic<int> least{1000};
+  run_in_openmp(4, [&](int) {
+    const int count = internal::thread_count(threads);
+    for (int seen = least; count < seen && !least.compare_exchange_weak(seen, count);) {
+    }
+  });
+  return least;
+}
+
 // A host that lets its regions nest gets what it asks for.
 TEST(OpenMpHost, MayLetRegionsNest) {
   const testing::UsedExecutor used("openmp");
-  std::atomic<int> least_count{1000};
-  const auto ask = [&](int) {
-    const int count = internal::thread_count(2);
-    for (int seen = least_count; count < seen && !least_count.compare_exchange_weak(seen, count);) {
-    }
-  };
-  omp_set_max_active_levels(2);
   const int outside = internal::thread_count(2);
-  run_in_openmp(4, ask);
-  omp_set_max_active_levels(1);
-  EXPECT_EQ(least_count, outside);
-  run_in_openmp(4, ask);
-  EXPECT_EQ(least_count, 1);
+  {
+    const ActiveLevels nested(2);
+    EXPECT_EQ(least_thread_count(2), outside);
+  }
+  const ActiveLevels flat(1);
+  EXPECT_EQ(least_thread_count(2), 1);
+}
+
+TEST(OpenMpHost, OffersANestedRegionWhatItSaysThere) {
+  const testing::UsedExecutor used("openmp");
+  const ActiveLevels nested(2);
+  for (const int offered : {1, 3}) {
+    std::atomic<int> most{0}, sum{0};
+    run_in_openmp(host_threads, [&](int) {
+      omp_set_num_threads(offered);  // of this region alone
+      sum += internal::thread_count(8) + internal::thread_count(0);
+      Crowd crowd;
+      internal::parallel_for(20, 8, [&](std::size_t) { crowd.visit(); });
+      for (int seen = most; crowd.most() > seen && !most.compare_exchange_weak(seen, crowd.most());) {
+      }
+    });
+    EXPECT_EQ(sum, 2 * offered * host_threads);
+    EXPECT_LE(most, offered);
+  }
+}
+
+// Its threads are busy, though regions of its own might nest.
+TEST(OpenMpHost, GetsNoThreadsOfOneTbbBesideItsOwn) {
+  const testing::UsedExecutor used("tbb");
+  const ActiveLevels nested(2);
+  EXPECT_EQ(least_thread_count(0), 1);
+  EXPECT_EQ(least_thread_count(8), 1);
+  Crowd crowd;
+  run_in_openmp(4, [&](int) { internal::parallel_for(50, 8, [&](std::size_t) { crowd.visit(); }); });
+  EXPECT_EQ(crowd.visits(), 200);
+  EXPECT_LE(crowd.most(), host_threads);
+}
+
+// An arena of a host's own, where the machine has more threads.
+class InsideAnArena : public ::testing::TestWithParam<std::string> {
+ protected:
+  static constexpr int arena_threads = 3;
+
+  void run(const std::function<void()>& work) { arena_.execute(work); }
+
+ private:
+  const testing::UsedExecutor used_{GetParam()};
+  const tbb::global_control machine_{tbb::global_control::max_allowed_parallelism, 8};
+  tbb::task_arena arena_{arena_threads};
+};
+
+INSTANTIATE_TEST_SUITE_P(Executors, InsideAnArena, ::testing::ValuesIn(testing::executor_names()),
+                         [](const auto& of) { return of.param; });
+
+TEST_P(InsideAnArena, OneCallUsesNoMoreThreadsThanItHas) {
+  for (const int threads : {0, 2, 8}) {
+    Crowd crowd;
+    run([&] { internal::parallel_for(100, threads, [&](std::size_t) { crowd.visit(); }); });
+    EXPECT_EQ(crowd.visits(), 100);
+    EXPECT_LE(crowd.most(), threads == 2 ? 2 : arena_threads) << threads << " threads";
+  }
+}
+
+TEST_P(InsideAnArena, ItsTasksUseNoMoreThreadsThanItHas) {
+  for (const int threads : {0, 2, 8}) {
+    Crowd crowd;
+    run([&] {
+      tbb::parallel_for(
+          0, 6, [&](int) { internal::parallel_for(30, threads, [&](std::size_t) { crowd.visit(); }); });
+    });
+    EXPECT_EQ(crowd.visits(), 180);
+    EXPECT_LE(crowd.most(), arena_threads) << threads << " threads";
+  }
+}
+
+TEST_P(InsideAnArena, ExceptionsReachTheCaller) {
+  std::atomic<int> begun{0};
+  const auto fail = [&] {
+    internal::parallel_for(1000, 2, [&](std::size_t) {
+      ++begun;
+      throw std::runtime_error("any");
+    });
+  };
+  EXPECT_THROW(run(fail), std::runtime_error);
+  EXPECT_LT(begun, 1000);
+}
+
+TEST(TbbHost, ItsArenaOfTwoGivesEightNoMoreThanTwo) {
+  const testing::UsedExecutor used("tbb");
+  const tbb::global_control machine(tbb::global_control::max_allowed_parallelism, 8);
+  tbb::task_arena arena(2);
+  Crowd crowd;
+  arena.execute([&] {
+    EXPECT_EQ(internal::thread_count(8), 2);
+    EXPECT_EQ(internal::thread_count(0), 2);
+    EXPECT_EQ(internal::thread_count(1), 1);
+    internal::parallel_for(100, 8, [&](std::size_t) { crowd.visit(); });
+  });
+  EXPECT_EQ(crowd.visits(), 100);
+  EXPECT_LE(crowd.most(), 2);
 }
 
 }  // namespace

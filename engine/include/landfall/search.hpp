@@ -98,7 +98,9 @@ std::span<const MethodInfo> methods();
 std::string active_isa();
 // What schedules parallel work: "tbb", or "openmp" where the environment variable LANDFALL_EXECUTOR says so
 // (for hosts that run on OpenMP); an unknown name there throws Error{unknown_name} here. Inside a host's
-// own parallel region search() starts no more threads than the host allowed. Answers do not depend on it.
+// region of the same scheduler search() uses at most the threads of the host's arena, or those that OpenMP
+// offers a nested region (1 where regions may not nest); inside one of the other, the calling thread alone.
+// A build without OpenMP does not see OpenMP's regions. Answers do not depend on any of this.
 std::string active_executor();
 
 }  // namespace landfall
