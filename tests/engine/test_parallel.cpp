@@ -62,20 +62,32 @@ TEST_P(ParallelFor, LetsAnExceptionOut) {
   }
 }
 
-// The other threads of the region may be inside of bodies then: they come to their end before it is out.
+// The other threads of the region are inside of bodies then: they come to their end before it is out, and
+// what they throw stays within. The first body throws as soon as another has begun, which goes on for long.
 TEST_P(ParallelFor, LetsOneExceptionOutOfMany) {
+  using std::chrono::steady_clock;
   for (const int threads : {0, 2, 7}) {
-    std::atomic<int> inside{0};
+    const int most_begun = std::min(2, internal::thread_count(threads));
+    const auto latest = steady_clock::now() + std::chrono::seconds(10);
+    std::atomic<int> begun{0}, ended{0};
     const auto run = [&] {
-      parallel_for(1000, threads, [&](std::size_t i) {
-        ++inside;
-        std::this_thread::yield();
-        --inside;
-        throw std::runtime_error(std::to_string(i));
+      parallel_for(1000, threads, [&](std::size_t) {
+        const bool first = begun++ == 0;
+        while (first && begun < most_begun && steady_clock::now() < latest) std::this_thread::yield();
+        if (!first) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        ++ended;
+        throw std::runtime_error(first ? "first" : "later");
       });
     };
-    EXPECT_THROW(run(), std::runtime_error) << threads;
-    EXPECT_EQ(inside, 0);
+    try {
+      run();
+      FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "first") << threads;
+    }
+    EXPECT_EQ(ended, begun) << threads;
+    EXPECT_GE(begun, most_begun) << threads;
+    EXPECT_LT(begun, 1000) << threads;
   }
 }
 
