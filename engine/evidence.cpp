@@ -24,17 +24,16 @@ double evidence_slope(double share, std::size_t points) {
 }
 
 RivalMargin rival_margin(std::size_t points) {
-  constexpr double nats = 6.5;  // ln 665; scores on the lattice are rough, and refined poses are told apart
   constexpr double most_share = 0.22;
   const double perfect = 255.0 * static_cast<double>(points);
-  return {.most = most_share / fourth_root(points) * perfect,
-          .of_misfit = std::expm1(nats / (power * fourth_root(points))),
-          .worst_misfit = (1.0 + least_misfit) * perfect};
+  return {.most_score = most_share / fourth_root(points) * perfect,
+          .part_of_misfit = std::expm1(rival_nats / (power * fourth_root(points))),
+          .misfit_at_score_0 = (1.0 + least_misfit) * perfect};
 }
 
 RivalMargin second_margin(std::size_t points) {
   constexpr double share = 0.25;
-  return {.most = share * 255.0 * static_cast<double>(points)};
+  return {.most_score = share * 255.0 * static_cast<double>(points)};
 }
 
 double elsewhere_weight(double share, double lead_nats) {

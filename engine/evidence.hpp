@@ -23,15 +23,17 @@ double evidence_slope(double share, std::size_t points);
 inline constexpr double ray_share = 0.1;
 
 // How much less than the best pose one may score and yet be looked for. By its likelihood, which must be at
-// least one in several hundred of the best's: a part of what the best one lacks to a perfect fit. At most a
-// fixed amount, which keeps searches with scans that fit badly within bounds.
+// least one in 665 of the best's (rival_nats): a part of what the best one lacks to a perfect fit. At most a
+// fixed amount, which keeps searches with scans that fit badly within bounds. In scores, sums of the field.
+inline constexpr double rival_nats = 6.5;
+
 struct RivalMargin {
-  double most = 0.0;
-  double of_misfit = 1.0;
-  double worst_misfit = std::numeric_limits<double>::infinity();  // that of score 0
+  double most_score = 0.0;
+  double part_of_misfit = 1.0;
+  double misfit_at_score_0 = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] std::int32_t at(std::int32_t best_score) const {
-    return static_cast<std::int32_t>(std::min(most, of_misfit * (worst_misfit - best_score)));
+    return static_cast<std::int32_t>(std::min(most_score, part_of_misfit * (misfit_at_score_0 - best_score)));
   }
 };
 RivalMargin rival_margin(std::size_t points);
