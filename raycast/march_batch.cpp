@@ -141,7 +141,10 @@ void MarchBatch::add_fan(const FanBeams& beams, std::size_t first, std::size_t c
 // Walls have no inside: a ray that starts in one meets the face where it comes out.
 float MarchBatch::leave_obstacle(std::size_t ray) const {
   CellWalk walk(x_[ray], y_[ray], dx_[ray], dy_[ray]);
-  while (squares_.is_obstacle(cell_[ray] + walk.row() * (width_cells_ + 2) + walk.col())) walk.step();
+  const auto within = [&] {
+    return squares_.is_obstacle(cell_[ray] + walk.row() * (width_cells_ + 2) + walk.col());
+  };
+  while (walk.entered() <= range_max_[ray] && within()) walk.step();
   return walk.entered() <= range_max_[ray] ? static_cast<float>(walk.entered()) : infinity;
 }
 

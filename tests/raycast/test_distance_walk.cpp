@@ -62,6 +62,16 @@ TEST(DistanceWalk, LeavesTheWallItStartsIn) {
   EXPECT_EQ(range_m(room, {0.25, 1.25, -pi / 2}, beam_at(0.0, 1.2)), infinity);
 }
 
+// Limits on either side of the face, on it, and shorter than the first cell.
+TEST(DistanceWalk, LooksForTheWayOutNoFartherThanTheRange) {
+  const GridMap solid = testing::drawn_map(std::vector<std::string>(40, std::string(60, '#')), 0.5);
+  EXPECT_FLOAT_EQ(range_m(solid, {0.25, 10.0, 0.0}, beam_at(0.0, 80.0)), 29.75f);
+  EXPECT_FLOAT_EQ(range_m(solid, {0.25, 10.0, 0.0}, beam_at(0.0, 29.75)), 29.75f);
+  EXPECT_EQ(range_m(solid, {0.25, 10.0, 0.0}, beam_at(0.0, 29.7)), infinity);
+  EXPECT_EQ(range_m(solid, {15.0, 10.0, 0.3}, beam_at(0.0, 0.1)), infinity);
+  EXPECT_NEAR(range_m(solid, {15.0, 19.9, pi / 2}, beam_at(0.0, 0.2)), 0.1f, 1e-6);
+}
+
 TEST(DistanceWalk, EntersTheMapFromOutside) {
   EXPECT_FLOAT_EQ(range_m(room, {-7.0, 1.25, 0.0}, beam_at(0.0, 80.0)), 7.0f);
   EXPECT_EQ(range_m(room, {-7.0, 1.25, 0.0}, beam_at(0.0, 6.9)), infinity);
@@ -164,7 +174,7 @@ TEST(DistanceWalkEqualsGridWalk, OnRealMaps) {
   }
 }
 
-// From within walls as well.
+// From within walls as well, with ranges that end within them.
 TEST(DistanceWalkEqualsWallTrace, FromAnywhere) {
   std::mt19937 rng(9);
   int rays = 0;
@@ -180,7 +190,7 @@ TEST(DistanceWalkEqualsWallTrace, FromAnywhere) {
                       .y_m = pose.y_m,
                       .dx = static_cast<float>(std::cos(pose.theta_rad)),
                       .dy = static_cast<float>(std::sin(pose.theta_rad)),
-                      .range_max_m = 30.0f});
+                      .range_max_m = i % 2 == 0 ? 30.0f : 0.3f});
     }
     std::vector<float> walked_m(from.size());
     std::vector<float> seen_m(from.size());
