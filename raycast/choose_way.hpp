@@ -1,8 +1,9 @@
 // Which way of casting rays is the fastest for a map and a pattern of rays. A function of these alone, so
-// that answers do not depend on what a clock said.
+// that answers do not depend on what a clock said. It rests on bench_raycast, run with AVX-512, AVX2 and SSE4
+// on grids from 0.3 to 20 million cells: there the distance walk is the fastest for fans and for single rays.
+// Larger grids, as far as its table holds them, are taken to be alike; plans are cast against their walls.
 #pragma once
 
-#include <cstdint>
 #include <string_view>
 
 namespace landfall::raycast {
@@ -16,8 +17,10 @@ std::string_view name(Way way);
 
 enum class Pattern { fan, single_rays, cones };
 
+// Of a grid; 0 x 0: a plan, which is more exact than any grid of it.
 struct MapShape {
-  std::int64_t grid_cells = 0;  // 0: a plan, which is more exact than any grid of it
+  int width_cells = 0;
+  int height_cells = 0;
 };
 
 Way choose_way(const MapShape& map, Pattern pattern);

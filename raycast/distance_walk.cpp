@@ -46,12 +46,6 @@ class ToGrid {
 
 }  // namespace
 
-bool DistanceWalk::can_hold(const Grid& grid) {
-  const auto cells = (std::size_t{2} + static_cast<std::size_t>(grid.width_cells)) *
-                     (std::size_t{2} + static_cast<std::size_t>(grid.height_cells));
-  return 4 * cells < std::size_t{1} << 31;
-}
-
 DistanceWalk::DistanceWalk(const PlacedGrid& placed)
     : squares_(placed.grid),
       width_cells_(placed.grid.width_cells),

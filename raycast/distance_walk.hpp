@@ -15,8 +15,7 @@ namespace landfall::raycast {
 // obstacle ends where it leaves that.
 class DistanceWalk {
  public:
-  // Whether its table can hold the grid.
-  static bool can_hold(const Grid& grid);
+  // A grid that FreeSquareTable can hold.
   explicit DistanceWalk(const PlacedGrid& placed);
 
   // As Scene::cast_fans, but for beams with a half-angle, whose ranges it leaves as they are.

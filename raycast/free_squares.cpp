@@ -50,13 +50,18 @@ std::size_t word_count(std::int32_t width_cells, std::int32_t height_cells) {
 
 }  // namespace
 
+bool FreeSquareTable::can_hold(int width_cells, int height_cells) {
+  const auto cells = (std::int64_t{2} + width_cells) * (std::int64_t{2} + height_cells);
+  return cells < std::int64_t{1} << 29;
+}
+
 FreeSquareTable::FreeSquareTable(const Grid& grid)
     : width_cells_(grid.width_cells + 2),
       height_cells_(grid.height_cells + 2),
       words_(word_count(width_cells_, height_cells_), ~std::uint32_t{0}) {
   static_assert(FreeSquares::beyond_grid == 255);
   const std::size_t cells = words_.size();
-  assert(4 * cells < std::size_t{1} << 31);
+  assert(can_hold(grid.width_cells, grid.height_cells));
   auto* sides = reinterpret_cast<std::uint8_t*>(words_.data());
   const std::vector<std::uint8_t> nothing(static_cast<std::size_t>(width_cells_), FreeSquares::obstacle);
   const auto fill = [&](int row, int row_ahead, std::uint8_t* first_grid) {

@@ -13,7 +13,9 @@ namespace landfall::raycast {
 
 class FreeSquareTable {
  public:
-  // 4 (width + 2) (height + 2) must stay below 2^31.
+  // Whether cells of such a grid, and of the ring around it, can be counted: four tables in 31 bits.
+  static bool can_hold(int width_cells, int height_cells);
+  // Of a grid that it can hold.
   explicit FreeSquareTable(const Grid& grid);
 
   [[nodiscard]] kernels::FreeSquares view() const {

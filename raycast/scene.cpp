@@ -70,7 +70,7 @@ Scene::Scene(std::span<const Segment> walls)
 
 Scene::Scene(const PlacedGrid& grid, MakeWalls make_faces)
     : state_(std::make_unique<State>(
-          MapShape{.grid_cells = std::int64_t{grid.grid.width_cells} * grid.grid.height_cells},
+          MapShape{.width_cells = grid.grid.width_cells, .height_cells = grid.grid.height_cells},
           std::move(make_faces))) {
   for (const Pattern pattern : {Pattern::fan, Pattern::single_rays}) {
     const Way chosen = way(pattern);

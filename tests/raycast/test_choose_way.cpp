@@ -2,39 +2,34 @@
 
 #include <gtest/gtest.h>
 
-#include "raycast/distance_walk.hpp"
-
 namespace landfall::raycast {
 namespace {
 
 TEST(ChooseWay, TakesFreeSquaresOnGridsAndWallsOnPlans) {
   for (const Pattern pattern : {Pattern::fan, Pattern::single_rays}) {
-    EXPECT_EQ(choose_way({.grid_cells = 1}, pattern), Way::distance_walk);
-    EXPECT_EQ(choose_way({.grid_cells = 4800 * 4120}, pattern), Way::distance_walk);
-    EXPECT_EQ(choose_way({.grid_cells = 0}, pattern), Way::embree);
+    EXPECT_EQ(choose_way({.width_cells = 1, .height_cells = 1}, pattern), Way::distance_walk);
+    EXPECT_EQ(choose_way({.width_cells = 4800, .height_cells = 4120}, pattern), Way::distance_walk);
+    EXPECT_EQ(choose_way({}, pattern), Way::embree);
   }
 }
 
 TEST(ChooseWay, CastsConesAtWalls) {
-  EXPECT_EQ(choose_way({.grid_cells = 100}, Pattern::cones), Way::segment_tree);
-  EXPECT_EQ(choose_way({.grid_cells = 0}, Pattern::cones), Way::segment_tree);
+  EXPECT_EQ(choose_way({.width_cells = 10, .height_cells = 10}, Pattern::cones), Way::segment_tree);
+  EXPECT_EQ(choose_way({}, Pattern::cones), Way::segment_tree);
 }
 
-// Sizes with the longest border that a map may have, and the shortest.
-TEST(ChooseWay, NeverTakesATableThatCannotBeHeld) {
-  for (const int width_cells : {8'259, 23'000, 65'000}) {
-    int chosen = 0;
-    for (int height_cells = 8'000; height_cells <= 65'000; ++height_cells) {
-      if (choose_way({.grid_cells = std::int64_t{width_cells} * height_cells}, Pattern::fan) !=
-          Way::distance_walk)
-        continue;
-      ++chosen;
-      EXPECT_TRUE(
-          DistanceWalk::can_hold({.cells = {}, .width_cells = width_cells, .height_cells = height_cells}));
-    }
-    EXPECT_GT(chosen, 0);
-  }
-  EXPECT_EQ(choose_way({.grid_cells = std::int64_t{1} << 30}, Pattern::fan), Way::embree);
+// With the ring around it: (width + 2) (height + 2) < 2^29, which is 8192 x 65536 and 3 x 178 956 970.67.
+TEST(ChooseWay, TakesFreeSquaresAsFarAsTheirTableCanBeHeld) {
+  const auto way = [](int width_cells, int height_cells) {
+    return choose_way({.width_cells = width_cells, .height_cells = height_cells}, Pattern::fan);
+  };
+  EXPECT_EQ(way(8190, 65'533), Way::distance_walk);
+  EXPECT_EQ(way(8190, 65'534), Way::embree);
+  EXPECT_EQ(way(1, 178'956'968), Way::distance_walk);
+  EXPECT_EQ(way(1, 178'956'969), Way::embree);
+  EXPECT_EQ(way(1, 400'000'000), Way::embree);  // its cells alone could be counted
+  EXPECT_EQ(way(400'000'000, 1), Way::embree);
+  EXPECT_EQ(way(2'147'483'647, 2'147'483'647), Way::embree);
 }
 
 TEST(ChooseWay, NamesAllWays) {
