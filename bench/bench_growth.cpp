@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/context.hpp"
 #include "bench/floor.hpp"
 #include "bench/office.hpp"
 #include "engine/counter_rng.hpp"
@@ -226,6 +227,7 @@ int main(int argc, char** argv) {
   using namespace landfall::bench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  name_instruction_set_and_executor();
   const std::vector<Case> all[] = {made_up_maps(), beam_counts(), buildings()};
   for (const std::vector<Case>& cases : all)
     if (!register_cases(cases)) return 1;

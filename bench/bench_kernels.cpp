@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/context.hpp"
 #include "bench/kernel_work.hpp"
 #include "bench/load_bandwidth.hpp"
 #include "tests/instruction_sets.hpp"
@@ -55,6 +56,7 @@ bool register_work(const Work& work) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  landfall::bench::name_instruction_set_and_executor();
   const std::vector<landfall::bench::Work> all = landfall::bench::all_work();
   for (const landfall::bench::Work& work : all)
     if (!landfall::bench::register_work(work)) return 1;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/context.hpp"
 #include "bench/ray_places.hpp"
 #include "bench/way_report.hpp"
 #include "landfall/search.hpp"
@@ -104,7 +105,7 @@ void register_place(const RayPlace& place) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::AddCustomContext("instruction set", landfall::active_isa());
+  landfall::bench::name_instruction_set_and_executor();
   const std::vector<landfall::bench::RayPlace> places = landfall::bench::ray_places();
   for (const landfall::bench::RayPlace& place : places) {
     if (!landfall::bench::agrees_with_oracle(place)) return 1;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/context.hpp"
 #include "bench/places.hpp"
 #include "tests/executors.hpp"
 #include "tests/instruction_sets.hpp"
@@ -148,6 +149,7 @@ void register_executors(const Place& place) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  landfall::bench::name_instruction_set_and_executor();
   const std::vector<landfall::bench::Place> places =
       landfall::bench::office_and({"intel", "csail", "aces", "acapulco", "infinite_corridor"});
   for (const landfall::bench::Place& place : places) {

@@ -1,5 +1,5 @@
 """Measures landfall on the real maps and logs and writes bench/RESULTS.md beside the Google Benchmark suites.
-docs/growth.png is drawn from the suite bench_growth.
+docs/growth.png is drawn from the suite bench_growth, beside bench/RESULTS.md alone.
 
     .venv/bin/python bench/report.py [--quick] [--buildings intel,csail] [--json numbers.json]
 
@@ -40,7 +40,8 @@ from willow_garage import willow_garage
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "build" / "bench" / "results"
 GROWTH = OUT / "bench_growth.json"
-GROWTH_PICTURE = ROOT / "docs" / "growth.png"
+RESULTS = ROOT / "bench" / "RESULTS.md"
+GROWTH_PICTURE = ROOT / "docs" / "growth.png"  # that RESULTS shows
 QUICK_EVERY = 10
 DRIVES = {"wean_hall": WEAN_HALL, "willow_garage": WILLOW_GARAGE, "trace1": TRACE1}
 
@@ -55,7 +56,7 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
         "--no-drives", action="store_true", help="leave out Wean Hall, Willow Garage and the bag"
     )
     parser.add_argument("--json", type=Path, default=OUT / "report.json", help="all numbers, as they come")
-    parser.add_argument("--results", type=Path, default=ROOT / "bench" / "RESULTS.md", help="what to rewrite")
+    parser.add_argument("--results", type=Path, default=RESULTS, help="what to rewrite")
     options = parser.parse_args(arguments)
     options.buildings = options.buildings.split(",")
     unknown = sorted(set(options.buildings) - set(NAMES))
@@ -103,11 +104,12 @@ def say(what: str) -> None:
 def circumstances(arguments: list[str]) -> dict[str, str]:
     cpuinfo = Path("/proc/cpuinfo")
     names = re.findall(r"model name\s*:\s*(.+)", cpuinfo.read_text()) if cpuinfo.exists() else []
+    kernels = f"{landfall.active_isa()}, {landfall.active_executor()}"
     commit = subprocess.run(
         ["git", "-C", ROOT, "describe", "--always", "--dirty"], capture_output=True, text=True
     ).stdout.strip()
     return {
-        "machine": f"{names[0] if names else 'unknown'}, {os.cpu_count()} cores, {landfall.active_isa()}",
+        "machine": f"{names[0] if names else 'unknown'}, {os.cpu_count()} cores, {kernels}",
         "date": datetime.date.today().isoformat(),
         "commit": commit or "unknown",
         "command": " ".join(["bench/report.py", *arguments]),
@@ -155,7 +157,7 @@ def main(arguments: list[str] | None = None) -> int:
     print_tables(measured)
     try:
         rewrite_measured(options.results, measured_parts(measured, run))
-        if GROWTH.is_file():
+        if GROWTH.is_file() and options.results.resolve() == RESULTS:
             draw_growth(load_growth(GROWTH)[1], GROWTH_PICTURE)
     except (OSError, ValueError) as cause:
         say(str(cause))

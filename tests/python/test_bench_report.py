@@ -7,6 +7,7 @@ import json
 import math
 from pathlib import Path
 
+import landfall
 import pytest
 
 BENCH = Path(__file__).resolve().parents[2] / "bench"
@@ -202,6 +203,40 @@ def test_growth_is_drawn(module, tmp_path):
     module("growth").draw_growth(growth_of(module, 0.5), tmp_path / "growth.png")
     assert (tmp_path / "growth.png").read_bytes().startswith(b"\x89PNG")
     assert list(tmp_path.iterdir()) == [tmp_path / "growth.png"]
+
+
+@pytest.fixture
+def report(module, monkeypatch, tmp_path):
+    """bench/report.py over one suite, bench_growth, and pages of its own."""
+    report = module("report")
+    entries = [
+        {"name": f"floor/cells:{side}x{side}", "cpu_time": 1.0, "time_unit": "ms"}
+        | {"poses": 720.0 * side**2, "beams": 180.0, "median_ms": float(side)}
+        for side in (100, 1000)
+    ]
+    (tmp_path / "bench_growth.json").write_text(
+        json.dumps({"context": {"date": "2026-11-22T10:00"}, "benchmarks": entries})
+    )
+    (tmp_path / "RESULTS.md").write_text("<!-- measured: growth -->\n<!-- end of growth -->\n")
+    (tmp_path / "other.md").write_text("<!-- measured: growth -->\n<!-- end of growth -->\n")
+    monkeypatch.setenv("LANDFALL_DATA", str(tmp_path / "none"))
+    monkeypatch.setattr(report, "OUT", tmp_path)
+    monkeypatch.setattr(report, "GROWTH", tmp_path / "bench_growth.json")
+    monkeypatch.setattr(report, "RESULTS", tmp_path / "RESULTS.md")
+    monkeypatch.setattr(report, "GROWTH_PICTURE", tmp_path / "growth.png")
+    return report
+
+
+@pytest.mark.parametrize(("page", "drawn"), [("RESULTS.md", True), ("other.md", False)])
+def test_the_growth_picture_belongs_to_the_results_page(report, tmp_path, page, drawn):
+    assert report.main(["--results", str(tmp_path / page)]) == 0
+    assert "| floor 100x100 | 7.2e+06 | 180 | 100 |" in (tmp_path / page).read_text()
+    assert (tmp_path / "growth.png").exists() == drawn
+
+
+def test_a_run_names_instruction_set_and_executor(report):
+    machine = report.circumstances([])["machine"]
+    assert machine.endswith(f", {landfall.active_isa()}, {landfall.active_executor()}")
 
 
 def test_searches_by_instruction_set(module):
