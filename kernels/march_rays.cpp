@@ -16,7 +16,7 @@ namespace landfall::kernels {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::CappedTag<float, march_batch>;
+using FloatTag = hn::CappedTag<float, march_multiple>;
 using IntTag = hn::Rebind<std::int32_t, FloatTag>;
 using WordTag = hn::Rebind<std::uint32_t, FloatTag>;
 using Ints = hn::Vec<IntTag>;

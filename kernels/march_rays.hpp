@@ -10,7 +10,7 @@
 
 namespace landfall::kernels {
 
-inline constexpr std::size_t march_batch = 16;  // rays come in multiples of this
+inline constexpr std::size_t march_multiple = 16;  // rays come in multiples of this
 
 // Sides of squares in cells, for squares towards (+, +), (-, +), (+, -) and (-, -) of (column, row): four
 // grids one after the other, row by row. The grid has a ring of `beyond_grid` around it, which no square
@@ -36,8 +36,8 @@ struct Marches {
 };
 
 // range[i]: the length at which ray i enters an obstacle, 0 where it starts in one; +inf: none within
-// range_max[i]. Exactly through a corner it steps in y first. `rays` is a multiple of march_batch. Equal over
-// instruction sets, bit for bit.
+// range_max[i]. Exactly through a corner it steps in y first. `rays` is a multiple of march_multiple. Equal
+// over instruction sets, bit for bit.
 void march_rays(const FreeSquares& squares, const Marches& marches, std::size_t rays, float* range);
 
 namespace scalar {

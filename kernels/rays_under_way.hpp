@@ -11,7 +11,7 @@ inline constexpr float no_echo = std::numeric_limits<float>::infinity();
 inline constexpr float most_per_cell = 1e30f;  // in place of infinity: 0 cells of it are 0
 
 // Packets take a step each in turn, so that their loads overlap: 1.3 to 1.7 times the rays of one packet
-// after the other (bench_raycast).
+// after the other, measured once, by a timer that is not kept.
 inline constexpr std::size_t rays_under_way = 256;
 
 // Mirrored so that columns and rows go up. Lengths in cells.

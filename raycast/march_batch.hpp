@@ -34,7 +34,6 @@ class MarchBatch {
   MarchBatch(const FreeSquareTable& squares, int width_cells, int height_cells)
       : squares_(squares), width_cells_(width_cells), height_cells_(height_cells) {}
 
-  [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t room() const { return capacity - size_; }
   // A ray from anywhere, also from outside the grid.
   void add(double x, double y, float dx, float dy, float range_max);

@@ -29,7 +29,7 @@ struct Rays {
     range_max.push_back(limit);
   }
   void fill_batch() {
-    while (cell.size() % kernels::march_batch != 0) add(0, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f);
+    while (cell.size() % kernels::march_multiple != 0) add(0, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f);
   }
   [[nodiscard]] kernels::Marches view() const {
     return {.start_cell = cell.data(),
