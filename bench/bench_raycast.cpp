@@ -76,7 +76,7 @@ void add(const RayPlace& place, const std::string& pattern, std::string_view way
 }
 
 void add_fan(const RayPlace& place, const std::string& pattern, const std::vector<raycast::Beam>& beams) {
-  const raycast::Way chosen = place.scene->way(raycast::Pattern::fan);
+  const raycast::Way chosen = place.scene->way();
   add(place, pattern, "embree", chosen == raycast::Way::embree, fans(place, *place.embree, beams));
   if (place.distance_walk)
     add(place, pattern, "distance_walk", chosen == raycast::Way::distance_walk,
@@ -88,14 +88,14 @@ void register_place(const RayPlace& place) {
   add_fan(place, "fan_half_degree", bench::fan(360, pi / 360.0, 0.0));
   add_fan(place, "fan_one_degree", bench::fan(180, pi / 180.0, 0.0));
   add_fan(place, "ring_15_degrees", bench::fan(24, pi / 12.0, 0.0));
-  const raycast::Way chosen = place.scene->way(raycast::Pattern::single_rays);
+  const raycast::Way chosen = place.scene->way();
   add(place, "single_rays", "embree", chosen == raycast::Way::embree, single_rays(place, *place.embree));
   if (place.distance_walk) {
     add(place, "single_rays", "distance_walk", chosen == raycast::Way::distance_walk,
         single_rays(place, *place.distance_walk));
     add(place, "single_rays", "grid_walk", false, walked_rays(place));
   }
-  add(place, "cones_12_degrees", name(place.scene->way(raycast::Pattern::cones)), true,
+  add(place, "cones_12_degrees", name(raycast::Way::segment_tree), true,
       fans(place, *place.scene, bench::fan(24, pi / 12.0, pi / 30.0)));
 }
 

@@ -62,9 +62,9 @@ std::string ray_caster(const PreparedMap& map, const Sensor& sensor) {
   const auto is_cone = [](const Beam& beam) { return beam.half_angle_rad > 0.0; };
   const bool cones = std::any_of(sensor.beams.begin(), sensor.beams.end(), is_cone);
   const bool rays = !std::all_of(sensor.beams.begin(), sensor.beams.end(), is_cone);
-  std::string names(rays ? name(scene.way(raycast::Pattern::fan)) : "");
+  std::string names(rays ? name(scene.way()) : "");
   if (rays && cones) names += ", ";
-  if (cones) names += name(scene.way(raycast::Pattern::cones));
+  if (cones) names += name(raycast::Way::segment_tree);
   return names;
 }
 

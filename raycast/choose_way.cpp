@@ -16,8 +16,7 @@ std::string_view name(Way way) {
   return "";
 }
 
-Way choose_way(const MapShape& map, Pattern pattern) {
-  if (pattern == Pattern::cones) return Way::segment_tree;
+Way choose_way(const MapShape& map) {
   const bool is_grid = map.width_cells > 0 && map.height_cells > 0;
   return is_grid && FreeSquareTable::can_hold(map.width_cells, map.height_cells) ? Way::distance_walk
                                                                                  : Way::embree;

@@ -1,7 +1,7 @@
-// Which way of casting rays is the fastest for a map and a pattern of rays. A function of these alone, so
-// that answers do not depend on what a clock said. It rests on bench_raycast, run with AVX-512, AVX2 and SSE4
-// on grids from 0.3 to 20 million cells: there the distance walk is the fastest for fans and for single rays.
-// Larger grids, as far as its table holds them, are taken to be alike; plans are cast against their walls.
+// Which way of casting rays is the fastest for a map. A function of its shape alone, so that answers do not
+// depend on what a clock said. It rests on bench_raycast, run with AVX-512, AVX2 and SSE4 on grids from 0.3
+// to 20 million cells: there the distance walk is the fastest for fans and for single rays. Larger grids, as
+// far as its table holds them, are taken to be alike; plans are cast against their walls.
 #pragma once
 
 #include <string_view>
@@ -11,11 +11,9 @@ namespace landfall::raycast {
 enum class Way {
   embree,         // packets of rays against walls in a tree of boxes
   distance_walk,  // from one free square of a grid to the next
-  segment_tree    // the nearest wall point in a cone
+  segment_tree    // the nearest wall point in a cone: beams with a half-angle, on every map
 };
 std::string_view name(Way way);
-
-enum class Pattern { fan, single_rays, cones };
 
 // Of a grid; 0 x 0: a plan, which is more exact than any grid of it.
 struct MapShape {
@@ -23,6 +21,7 @@ struct MapShape {
   int height_cells = 0;
 };
 
-Way choose_way(const MapShape& map, Pattern pattern);
+// For beams without a half-angle.
+Way choose_way(const MapShape& map);
 
 }  // namespace landfall::raycast

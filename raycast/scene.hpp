@@ -25,14 +25,14 @@ class Scene {
   // A plan.
   explicit Scene(std::span<const Segment> walls);
   // A grid, which is not needed afterwards. make_faces() gives the faces between its occupied cells and the
-  // others; it is called when a way first needs them.
+  // others; it is called when they are first needed.
   Scene(const PlacedGrid& grid, MakeWalls make_faces);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
-  // How rays of the pattern are cast.
-  [[nodiscard]] Way way(Pattern pattern) const;
+  // How beams without a half-angle are cast, chosen once; the others by segment_tree.
+  [[nodiscard]] Way way() const;
 
   // ranges_m[i * beams.size() + b]: beam b from poses[i]; +inf: nothing within its range_max_m.
   // Neighbouring beams are traced together, which pays where they point to similar directions.

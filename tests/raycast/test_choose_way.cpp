@@ -6,22 +6,15 @@ namespace landfall::raycast {
 namespace {
 
 TEST(ChooseWay, TakesFreeSquaresOnGridsAndWallsOnPlans) {
-  for (const Pattern pattern : {Pattern::fan, Pattern::single_rays}) {
-    EXPECT_EQ(choose_way({.width_cells = 1, .height_cells = 1}, pattern), Way::distance_walk);
-    EXPECT_EQ(choose_way({.width_cells = 4800, .height_cells = 4120}, pattern), Way::distance_walk);
-    EXPECT_EQ(choose_way({}, pattern), Way::embree);
-  }
-}
-
-TEST(ChooseWay, CastsConesAtWalls) {
-  EXPECT_EQ(choose_way({.width_cells = 10, .height_cells = 10}, Pattern::cones), Way::segment_tree);
-  EXPECT_EQ(choose_way({}, Pattern::cones), Way::segment_tree);
+  EXPECT_EQ(choose_way({.width_cells = 1, .height_cells = 1}), Way::distance_walk);
+  EXPECT_EQ(choose_way({.width_cells = 4800, .height_cells = 4120}), Way::distance_walk);
+  EXPECT_EQ(choose_way({}), Way::embree);
 }
 
 // With the ring around it: (width + 2) (height + 2) < 2^29, which is 8192 x 65536 and 3 x 178 956 970.67.
 TEST(ChooseWay, TakesFreeSquaresAsFarAsTheirTableCanBeHeld) {
   const auto way = [](int width_cells, int height_cells) {
-    return choose_way({.width_cells = width_cells, .height_cells = height_cells}, Pattern::fan);
+    return choose_way({.width_cells = width_cells, .height_cells = height_cells});
   };
   EXPECT_EQ(way(8190, 65'533), Way::distance_walk);
   EXPECT_EQ(way(8190, 65'534), Way::embree);

@@ -153,8 +153,8 @@ TEST(Scene, AGridIsSeenAsItsFacesAre) {
                      ++asked;
                      return {faces.begin(), faces.end()};
                    });
-  EXPECT_EQ(plan.way(Pattern::fan), Way::embree);
-  EXPECT_EQ(grid.way(Pattern::fan), Way::distance_walk);
+  EXPECT_EQ(plan.way(), Way::embree);
+  EXPECT_EQ(grid.way(), Way::distance_walk);
   std::vector<Beam> beams;
   beams.reserve(40);
   for (int i = 0; i < 40; ++i) beams.push_back(ray_beam(0.11 + 0.157 * i));
