@@ -369,6 +369,13 @@ LANDFALL_API landfall_status landfall_active_isa(const char** isa);
  * next call in this thread. */
 LANDFALL_API landfall_status landfall_active_executor(const char** executor);
 
+/* How this sensor's rays are cast over this map, in simulation and in search: "distance_walk" (from one free
+ * square of a grid to the next) or "embree" (against walls) for beams, "segment_tree" for those with a
+ * half-angle; both names, with a comma, where it has both. Builds what beams are cast against where the map
+ * has not built it yet. Valid until the next call in this thread. */
+LANDFALL_API landfall_status landfall_ray_caster(const landfall_map* map, const landfall_sensor* sensor,
+                                                 const char** ray_caster);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,4 +1,5 @@
 #include "bindings/c/handles.hpp"
+#include "landfall/simulate.hpp"
 
 namespace {
 
@@ -33,6 +34,15 @@ landfall_status landfall_active_isa(const char** isa) {
     thread_local std::string name;
     name = landfall::active_isa();
     required(isa, "isa") = name.c_str();
+  });
+}
+
+landfall_status landfall_ray_caster(const landfall_map* map, const landfall_sensor* sensor,
+                                    const char** ray_caster) {
+  return guarded(__func__, [&] {
+    thread_local std::string name;
+    name = landfall::ray_caster(required(map, "map").map, *required(sensor, "sensor").sensor);
+    required(ray_caster, "ray_caster") = name.c_str();
   });
 }
 

@@ -45,7 +45,8 @@ void bind_simulate(nb::module_& module) {
   const SimulateOptions options;
   module.def("ray_caster", &ray_caster, "map"_a, "sensor"_a, nb::call_guard<nb::gil_scoped_release>(),
              "How this sensor's rays are cast over this map: \"distance_walk\" or \"embree\" for beams,\n"
-             "\"segment_tree\" for those with a half-angle, both where it has both. Raises InvalidArgument.");
+             "\"segment_tree\" for those with a half-angle, both where it has both. Raises InvalidArgument.\n"
+             "Builds what beams are cast against where the map has not built it yet, as a simulation does.");
   module.def("simulate", &simulated_scans, "map"_a, "sensor"_a, "T_map_robot"_a, nb::kw_only(),
              "noise"_a = options.noise, "seed"_a = options.seed,
              "One scan per pose, its T_map_robot set, with the sensor's noise.\n"

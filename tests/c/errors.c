@@ -145,6 +145,11 @@ int main(void) {
   nothing_to_go_by(map, scanner);
   landfall_method method;
   CHECK_FAILS(landfall_method_get(1000, &method), LANDFALL_INVALID_ARGUMENT, "index is 1000");
+  const char* ray_caster = NULL;
+  CHECK_FAILS(landfall_ray_caster(NULL, scanner, &ray_caster), LANDFALL_INVALID_ARGUMENT, "map is NULL");
+  CHECK_FAILS(landfall_ray_caster(map, NULL, &ray_caster), LANDFALL_INVALID_ARGUMENT, "sensor is NULL");
+  CHECK_FAILS(landfall_ray_caster(map, scanner, NULL), LANDFALL_INVALID_ARGUMENT, "ray_caster is NULL");
+  CHECK(ray_caster == NULL);
   landfall_sensor_free(scanner);
   landfall_map_free(map);
   return 0;

@@ -119,6 +119,9 @@ int main(void) {
   CHECK_OK(landfall_map_prepare(map));
   landfall_sensor* scanner = make_scanner();
   landfall_scans* scans = simulate_scan(map, scanner);
+  const char* ray_caster = NULL;
+  CHECK_OK(landfall_ray_caster(map, scanner, &ray_caster));
+  CHECK(strcmp(ray_caster, "distance_walk") == 0);
   landfall_sensor_free(scanner); /* the scans keep it alive */
   search_under_every_prior(map, scans);
   search_under_a_mixture_of_two_maps(map, scans);
