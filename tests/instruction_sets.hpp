@@ -23,10 +23,11 @@ class UsedInstructionSet {
   UsedInstructionSet& operator=(const UsedInstructionSet&) = delete;
 };
 
-// Of any machine, best first.
-constexpr std::array instruction_set_names{"AVX3_SPR", "AVX3_ZEN4", "AVX3_DL", "AVX3",     "AVX2",
-                                           "SSE4",     "SSSE3",     "SSE2",    "SVE2_128", "SVE_256",
-                                           "SVE2",     "SVE",       "NEON",    "EMU128",   "SCALAR"};
+// Of any machine, best first; tests/CMakeLists.txt has the same list.
+constexpr std::array instruction_set_names{
+    "AVX3_SPR",  "AVX3_ZEN4", "AVX3_DL",          "AVX3",    "AVX2",  "SSE4",
+    "SSSE3",     "SSE2",      "SVE2_128",         "SVE_256", "SVE2",  "SVE",
+    "NEON_BF16", "NEON",      "NEON_WITHOUT_AES", "EMU128",  "SCALAR"};
 
 inline std::vector<std::string> instruction_sets() {
   std::vector<std::string> of_this_machine;

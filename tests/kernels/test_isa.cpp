@@ -45,6 +45,22 @@ TEST(InstructionSets, NoNameGivesTheBestAgain) {
   EXPECT_EQ(kernels::isa_name(), best);
 }
 
+// Else the tests by name would leave it out, and nobody would see.
+TEST(InstructionSets, TheListHasTheBestOfThisMachine) {
+  ASSERT_TRUE(kernels::select_isa(nullptr));
+  const std::string best = kernels::isa_name();
+  ASSERT_TRUE(kernels::select_isa(std::getenv("LANDFALL_ISA")));
+  EXPECT_THAT(testing::instruction_set_names, ::testing::Contains(best));
+  EXPECT_EQ(testing::instruction_sets().front(), best);
+}
+
+TEST(InstructionSets, EveryOneOfTheListIsRunByName) {
+  std::string names;
+  for (const char* name : testing::instruction_set_names)
+    names += (names.empty() ? "" : " ") + std::string(name);
+  EXPECT_EQ(names, LANDFALL_ISAS_OF_CTEST);
+}
+
 // Run by ctest with LANDFALL_ISA set, see CMakeLists.txt.
 TEST(InstructionSets, EnvironmentDecides) {
   const char* wanted = std::getenv("LANDFALL_ISA");
