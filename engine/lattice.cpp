@@ -26,7 +26,7 @@ double Lattice::heading_step_rad() const {
 }
 
 double Lattice::heading_grid_rad(int heading) const {
-  return wrap_angle(heading * full_turn_rad / headings);
+  return wrap_angle(first_heading_rad + heading * full_turn_rad / headings);
 }
 
 Pose2 Lattice::T_map_robot(const LatticePose& pose) const {
@@ -36,7 +36,8 @@ Pose2 Lattice::T_map_robot(const LatticePose& pose) const {
 
 LatticePose Lattice::nearest(const Pose2& T_map_robot) const {
   const Pose2 T_grid_robot = inverse(T_map_grid) * T_map_robot;
-  const auto heading = static_cast<int>(std::lround(T_grid_robot.theta_rad / heading_step_rad()));
+  const auto heading =
+      static_cast<int>(std::lround((T_grid_robot.theta_rad - first_heading_rad) / heading_step_rad()));
   return {.heading = (heading % headings + headings) % headings,
           .row = nearest_multiple(T_grid_robot.y_m / resolution_m - 0.5, step_cells),
           .col = nearest_multiple(T_grid_robot.x_m / resolution_m - 0.5, step_cells)};

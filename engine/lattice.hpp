@@ -14,8 +14,8 @@ struct LatticePose {
   friend auto operator<=>(const LatticePose&, const LatticePose&) = default;  // the order of ties
 };
 
-// Headings k 2 pi / N are counted in the grid's own frame, so that turning map and scan together
-// changes nothing.
+// Headings are counted in the grid's own frame, so that turning map and scan together changes nothing:
+// first_heading_rad + k 2 pi / N. The first is 0 but for methods that centre headings on the prior.
 struct Lattice {
   double resolution_m = 0.0;
   Pose2 T_map_grid;
@@ -23,6 +23,7 @@ struct Lattice {
   int height_cells = 0;
   int headings = 0;    // N
   int step_cells = 1;  // every step_cells-th column and row, from 0
+  double first_heading_rad = 0.0;
 
   [[nodiscard]] double heading_step_rad() const;
   // The heading of index k in the grid's frame, in (-pi, pi].

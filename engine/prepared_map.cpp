@@ -55,6 +55,11 @@ const BoundTable& PreparedState::coarse_bound_table() const {
   });
 }
 
+const std::vector<std::int8_t>& PreparedState::global_grid(Contours contours) const {
+  const auto& grid = contours == Contours::corrected ? corrected_grid_ : uncorrected_grid_;
+  return grid.get([this, contours] { return internal::global_grid(grid_, contours); });
+}
+
 const WallMap& PreparedState::walls() const {
   return plan_ ? *plan_ : walls_.get([this] { return to_walls(grid_); });
 }
@@ -114,6 +119,8 @@ std::size_t PreparedState::memory_bytes() const {
   if (const auto* tables = window_tables_.if_built()) bytes += tables->memory_bytes();
   if (const auto* table = bound_table_.if_built()) bytes += table->memory_bytes();
   if (const auto* table = coarse_bound_table_.if_built()) bytes += table->memory_bytes();
+  if (const auto* grid = corrected_grid_.if_built()) bytes += grid->capacity();
+  if (const auto* grid = uncorrected_grid_.if_built()) bytes += grid->capacity();
   if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/block_mask.hpp"
+#include "engine/methods/grid/global_grid.hpp"
 #include "engine/search_tables.hpp"
 #include "engine/tile_layout.hpp"
 #include "landfall/prepared_map.hpp"
@@ -51,6 +52,8 @@ class PreparedState {
   [[nodiscard]] const BoundTable& bound_table() const;
   // Blocks twice as large.
   [[nodiscard]] const BoundTable& coarse_bound_table() const;
+  // Of method `grid`.
+  [[nodiscard]] const std::vector<std::int8_t>& global_grid(Contours contours) const;
   [[nodiscard]] const WallMap& walls() const;
   // The map, in its own frame, ready for rays: a plan by its walls, a grid in the way that is the fastest.
   [[nodiscard]] const raycast::Scene& scene() const;
@@ -69,6 +72,8 @@ class PreparedState {
   Lazy<WindowTables> window_tables_;
   Lazy<BoundTable> bound_table_;
   Lazy<BoundTable> coarse_bound_table_;
+  Lazy<std::vector<std::int8_t>> corrected_grid_;
+  Lazy<std::vector<std::int8_t>> uncorrected_grid_;
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
   mutable std::mutex masks_mutex_;

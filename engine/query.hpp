@@ -47,6 +47,9 @@ struct Proposal {
   std::vector<Candidate> candidates;
   bool proven = false;
   SearchCounts counts;
+  // Of a method whose scores are its own: the score of a scan that the map fits in every cell. 0: scores are
+  // sums of the likelihood field.
+  double perfect_score = 0.0;
 };
 
 inline constexpr std::size_t max_candidates = std::size_t{1} << 16;

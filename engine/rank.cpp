@@ -42,10 +42,15 @@ double missed_share(const Query& query) {
 
 }  // namespace
 
-Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most) {
+Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most,
+                 double perfect_score) {
   constexpr std::size_t most_counted = 64;
   const std::size_t points = query.points.size();
-  Modes found{.modes = {}, .log_rest = nothing, .missed_share = missed_share(query), .points = points};
+  Modes found{.modes = {},
+              .log_rest = nothing,
+              .missed_share = missed_share(query),
+              .points = points,
+              .perfect_score = perfect_score};
   std::vector<Pose2> T_map_mode;
   for (const Candidate& candidate : candidates) {
     const Pose2 T_map_robot = query.lattice.T_map_robot(candidate.pose);
@@ -57,7 +62,8 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
     if (known) continue;
     if (T_map_mode.size() >= most_counted) break;
     T_map_mode.push_back(T_map_robot);
-    const double share = share_of(candidate.score, points);
+    const bool own = perfect_score > 0.0;
+    const double share = own ? candidate.score / perfect_score : share_of(candidate.score, points);
     const double log_prior = query.domain.log_prior(query.lattice, candidate.pose);
     if (found.modes.size() < most) {
       found.modes.push_back({.best = candidate,
@@ -68,7 +74,8 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
                              .ways_to_settle = {},
                              .hypothesis = {}});
     } else {
-      found.log_rest = log_add(found.log_rest, log_prior + log_evidence(share, points));
+      const double log_likelihood = own ? own_log_evidence(share, 0.0) : log_evidence(share, points);
+      found.log_rest = log_add(found.log_rest, log_prior + log_likelihood);
     }
   }
   return found;
@@ -81,6 +88,18 @@ struct Ranked {
   double log_mass;  // prior x likelihood
 };
 
+double log_likelihood(const Modes& map, const Mode& mode) {
+  if (map.perfect_score > 0.0) return own_log_evidence(mode.share, mode.verification.explained);
+  return log_evidence(mode.share + share_of_rays(mode.verification), map.points);
+}
+
+// What weighs beside the best pose that it is none.
+double elsewhere(const Modes& map, const Mode& best, double lead_nats) {
+  if (map.perfect_score > 0.0) return own_elsewhere_weight(best.share, best.verification.explained);
+  const double lattice_share = share_of(best.best.score, map.points);
+  return elsewhere_weight(std::min(1.0, lattice_share + map.missed_share), lead_nats);
+}
+
 std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
   bool any_explains = false;
   for (const Modes& map : maps)
@@ -89,8 +108,7 @@ std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
   std::vector<Ranked> all;
   for (const Modes& map : maps) {
     for (const Mode& mode : map.modes) {
-      double log_mass =
-          mode.log_prior + log_evidence(mode.share + share_of_rays(mode.verification), map.points);
+      double log_mass = mode.log_prior + log_likelihood(map, mode);
       // A pose that would be lost by itself is no rival of one that explains the scan.
       if (any_explains && mode.hypothesis.explained < least_explained) log_mass -= unexplained_nats;
       all.push_back({mode, log_mass});
@@ -119,9 +137,8 @@ double log_total(const std::vector<Modes>& maps, const std::vector<Ranked>& all)
   for (const Ranked& one : all) total = log_add(total, one.log_mass);
   const Ranked& best = all.front();
   const double lead_nats = best.log_mass - (all.size() > 1 ? all[1].log_mass : nothing);
-  const double lattice_share = share_of(best.mode.best.score, maps.front().points);
-  const double share = std::min(1.0, lattice_share + maps.front().missed_share);
-  return log_add(total, best.log_mass + std::log(unseen_weight + elsewhere_weight(share, lead_nats)));
+  return log_add(total,
+                 best.log_mass + std::log(unseen_weight + elsewhere(maps.front(), best.mode, lead_nats)));
 }
 
 void decide(SearchResult& result) {

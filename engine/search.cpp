@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/central_heading.hpp"
 #include "engine/methods/table.hpp"
 #include "engine/options.hpp"
 #include "engine/parallel.hpp"
@@ -44,9 +45,13 @@ constexpr int least_modes = 8;
 // A map with what all scans of a call share.
 struct PreparedQuestion {
   const PreparedState& map;
-  Lattice lattice;
-  std::vector<Domain> domains;  // one for all scans, or one per scan
+  // One for all scans, or one per scan.
+  std::vector<Lattice> lattices;
+  std::vector<Domain> domains;
 
+  [[nodiscard]] const Lattice& lattice(std::size_t scan) const {
+    return lattices.size() == 1 ? lattices.front() : lattices[scan];
+  }
   [[nodiscard]] const Domain& domain(std::size_t scan) const {
     return domains.size() == 1 ? domains.front() : domains[scan];
   }
@@ -65,15 +70,20 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.refine_ms);
   std::optional<SettleProblem> problem;
   if (query.scan.parts) problem.emplace(query.map, query.scan);
+  const bool own = found.perfect_score > 0.0;
+  // The field is polished along the beams' axes, where a cone's echo need not be.
+  const std::vector<Beam>& beams = query.scan.sensor->beams;
+  const bool cones =
+      std::any_of(beams.begin(), beams.end(), [](const Beam& b) { return b.half_angle_rad > 0.0; });
   parallel_for(found.modes.size(), query.threads, [&](std::size_t i) {
     Mode& mode = found.modes[i];
     Hypothesis& hypothesis = mode.hypothesis;
     hypothesis.score = mode.best.score;
     hypothesis.T_map_robot_unrefined = query.lattice.T_map_robot(mode.best.pose);
     const Refined refined = refine(query.map, query.points, query.lattice, hypothesis.T_map_robot_unrefined);
-    hypothesis.T_map_robot = refined.T_map_robot;
+    hypothesis.T_map_robot = own && cones ? hypothesis.T_map_robot_unrefined : refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
-    mode.share = refined.share;
+    if (!own) mode.share = refined.share;
     if (problem) mode.ways_to_settle = settle(*problem, hypothesis.T_map_robot);
   });
 }
@@ -111,7 +121,8 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
   Modes modes = [&] {
     const StageTimer timer(result.times.rank_ms);
     return find_modes(query, proposal.candidates,
-                      static_cast<std::size_t>(std::max(query.options.max_hypotheses, least_modes)));
+                      static_cast<std::size_t>(std::max(query.options.max_hypotheses, least_modes)),
+                      proposal.perfect_score);
   }();
   refine_modes(query, modes, result);
   verify_modes(query, modes, result);
@@ -122,6 +133,7 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
 // not may score less. Looked for where that is cheap: with so wide a margin bounds exclude little.
 bool deserves_second_look(const Query& query, const Modes& modes) {
   constexpr std::int64_t most_poses = 100'000'000;
+  if (modes.perfect_score > 0.0) return false;  // of other scores the margin is the method's
   if (query.domain.poses > most_poses || query.out_of_time()) return false;
   return !modes.modes.empty() && std::none_of(modes.modes.begin(), modes.modes.end(), [](const Mode& mode) {
     return mode.hypothesis.explained >= least_explained;
@@ -152,11 +164,11 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
   std::vector<Modes> found;
   for (std::size_t m = 0; m < maps.size(); ++m) {
     if (maps[m].domain(index).poses == 0) continue;
-    const EndPoints points = make_end_points(scan, maps[m].lattice.resolution_m);
+    const EndPoints points = make_end_points(scan, maps[m].lattice(index).resolution_m);
     Query query{.map = maps[m].map,
                 .scan = scan,
                 .points = points,
-                .lattice = maps[m].lattice,
+                .lattice = maps[m].lattice(index),
                 .domain = maps[m].domain(index),
                 .options = options,
                 .margin = rival_margin(points.size()),
@@ -190,17 +202,18 @@ void require_on_map(const std::vector<PreparedQuestion>& maps, std::size_t prior
 
 std::vector<PreparedQuestion> prepare_questions(std::span<const PreparedMap> maps,
                                                 std::span<const PosePrior> priors,
-                                                const SearchOptions& options) {
+                                                const SearchOptions& options, const Method& method) {
   std::vector<PreparedQuestion> questions;
   for (const PreparedMap& map : maps) {
     map.prepare();
-    PreparedQuestion question{
-        .map = map.state(),
-        .lattice = make_lattice(map.grid(), options.translation_step_m, options.rotation_step_rad),
-        .domains = std::vector<Domain>(priors.size())};
-    const SharedMask free = question.map.free_mask(options.robot_radius_m, question.lattice.step_cells);
+    const Lattice lattice = make_lattice(map.grid(), options.translation_step_m, options.rotation_step_rad);
+    PreparedQuestion question{.map = map.state(),
+                              .lattices = std::vector<Lattice>(priors.size(), lattice),
+                              .domains = std::vector<Domain>(priors.size())};
+    const SharedMask free = question.map.free_mask(options.robot_radius_m, lattice.step_cells);
     parallel_for(priors.size(), options.threads, [&](std::size_t i) {
-      question.domains[i] = make_domain(priors[i], question.lattice, free);
+      if (method.centers_headings) question.lattices[i] = centered_on(priors[i], lattice);
+      question.domains[i] = make_domain(priors[i], question.lattices[i], free);
     });
     questions.push_back(std::move(question));
   }
@@ -226,7 +239,7 @@ std::vector<SearchResult> search(std::span<const PreparedMap> maps, std::span<co
   for (const Scan& scan : scans) validate(scan);
   validate_environment();
   const Clock::time_point start = Clock::now();
-  const std::vector<PreparedQuestion> questions = prepare_questions(maps, priors, options);
+  const std::vector<PreparedQuestion> questions = prepare_questions(maps, priors, options, method);
   const double prepare_ms = ms_since(start);
   std::vector<SearchResult> results(scans.size());
   // Many scans run side by side, each in one thread; a single one gets all of them.

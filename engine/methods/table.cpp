@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view default_method = "branch_and_bound";
 
-constexpr std::array<Method, 2> table{{
+constexpr std::array<Method, 5> table{{
     {.info = {.name = "exhaustive",
               .summary = "scores every pose of the prior's lattice; the oracle",
               .source = ""},
@@ -19,6 +19,22 @@ constexpr std::array<Method, 2> table{{
               .summary = "the same optimum, proven, by admissible bounds over x, y and heading; the default",
               .source = "Olson 2009, 2015; Hess et al. 2016"},
      .propose = propose_branch_and_bound},
+    {.info = {.name = "grid",
+              .summary =
+                  "occupancy-grid matching with oriented local grids: sonars, or any beams, in a window",
+              .source = "Courcelle & Horn 1999"},
+     .propose = propose_grid,
+     .centers_headings = true},
+    {.info = {.name = "grid_uncorrected",
+              .summary = "grid without the correction of contours, for comparison",
+              .source = "Courcelle & Horn 1999"},
+     .propose = propose_grid_uncorrected,
+     .centers_headings = true},
+    {.info = {.name = "grid_turned",
+              .summary = "grid with one local grid whose raster is turned, for comparison",
+              .source = "Courcelle & Horn 1999"},
+     .propose = propose_grid_turned,
+     .centers_headings = true},
 }};
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace landfall::internal {
 struct Method {
   MethodInfo info;
   Proposal (*propose)(const Query& query);
+  bool centers_headings = false;  // on the prior
 };
 
 std::span<const Method> method_table();
@@ -19,5 +20,8 @@ const Method& find_method(std::string_view name);
 
 Proposal propose_exhaustive(const Query& query);
 Proposal propose_branch_and_bound(const Query& query);
+Proposal propose_grid(const Query& query);
+Proposal propose_grid_uncorrected(const Query& query);
+Proposal propose_grid_turned(const Query& query);
 
 }  // namespace landfall::internal
