@@ -99,6 +99,8 @@ void bind_pose_files(nb::module_& module) {
         save_trajectory(stamped, tum);
       },
       "poses"_a, "tum"_a, "poses: (stamp_s, pose) each. Raises FileWrite.");
+  module.def("load_places", &load_places, "yaml"_a,
+             "Named places of a map: name -> prior. Raises FileNotFound, FileFormat.");
   module.def("load_prior", &load_prior, "json"_a, "A prior that mirrors the classes. Raises FileFormat.");
 }
 

@@ -31,6 +31,8 @@ class Field {
   // A member of an object: required, or where present (null counts as absent).
   [[nodiscard]] Field at(std::string_view key) const;
   [[nodiscard]] std::optional<Field> find(std::string_view key) const;
+  // The names of an object's members, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> keys() const;
   // The elements of an array.
   [[nodiscard]] std::vector<Field> items() const;
   // Complains of members that have other names than these.

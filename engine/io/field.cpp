@@ -78,6 +78,13 @@ void Field::expect_only(std::initializer_list<std::string_view> keys) const {
   }
 }
 
+std::vector<std::string> Field::keys() const {
+  if (!value_->is_object()) fail("an object");
+  std::vector<std::string> names;
+  for (const auto& [key, member] : value_->items()) names.push_back(key);
+  return names;
+}
+
 double Field::number() const {
   if (!is_finite_number(*value_)) fail("a finite number");
   return value_->get<double>();

@@ -3,15 +3,11 @@
 
 #include "engine/io/document.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/prior_fields.hpp"
 #include "engine/io/readers.hpp"
 
 namespace landfall {
 namespace io {
-namespace {
-
-constexpr int max_mixture_depth = 8;  // as validate() allows
-
-PosePrior read_kind(const Field& field, int depth);
 
 Window read_window(const Field& field) {
   field.expect_only({"T_map_robot", "half_x_m", "half_y_m", "half_theta_rad"});
@@ -23,15 +19,6 @@ Window read_window(const Field& field) {
   return window;
 }
 
-Gaussian read_gaussian(const Field& field) {
-  field.expect_only({"T_map_robot", "covariance"});
-  Gaussian gaussian;
-  gaussian.T_map_robot = field.at("T_map_robot").pose();
-  const std::vector<double> covariance = field.at("covariance").numbers(9);
-  std::copy(covariance.begin(), covariance.end(), gaussian.covariance.begin());
-  return gaussian;
-}
-
 Region read_region(const Field& field) {
   field.expect_only({"polygon_map", "theta_rad", "half_theta_rad"});
   Region region;
@@ -39,6 +26,21 @@ Region read_region(const Field& field) {
   region.theta_rad = field.number_or("theta_rad", region.theta_rad);
   region.half_theta_rad = field.number_or("half_theta_rad", region.half_theta_rad);
   return region;
+}
+
+namespace {
+
+constexpr int max_mixture_depth = 8;  // as validate() allows
+
+PosePrior read_kind(const Field& field, int depth);
+
+Gaussian read_gaussian(const Field& field) {
+  field.expect_only({"T_map_robot", "covariance"});
+  Gaussian gaussian;
+  gaussian.T_map_robot = field.at("T_map_robot").pose();
+  const std::vector<double> covariance = field.at("covariance").numbers(9);
+  std::copy(covariance.begin(), covariance.end(), gaussian.covariance.begin());
+  return gaussian;
 }
 
 Beacons read_beacons(const Field& field) {

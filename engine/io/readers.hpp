@@ -37,5 +37,6 @@ Log read_corridor8(const LogSource& ranges, const LogSource& poses, const LoadLo
 
 std::vector<StampedPose> read_trajectory(std::string_view tum, const std::string& file);
 PosePrior read_prior(std::string_view json, const std::string& file);
+std::map<std::string, PosePrior> read_places(std::string_view yaml, const std::string& file);
 
 }  // namespace landfall::io

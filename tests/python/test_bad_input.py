@@ -65,7 +65,14 @@ def test_prior_off_the_map(files, landfall_command):
 def test_unknown_place(files, landfall_command):
     landfall_command(
         "relocalize", "--map", files.map, "--log", files.log, "--prior", "place:dock"
-    ).fails_with("dock", "places file")
+    ).fails_with("places.yaml")
+    (files.folder / "floor.places.yaml").write_text("kitchen: {T_map_robot: [1, 2, 0]}\n")
+    landfall_command(
+        "relocalize", "--map", files.map, "--log", files.log, "--prior", "place:dock"
+    ).fails_with("dock", "floor.places.yaml", "'kitchen'")
+    landfall_command(
+        "relocalize", "--map", files.map, "--map", files.map, "--log", files.log, "--prior", "place:kitchen"
+    ).fails_with("one map", "2")
 
 
 def test_scan_without_valid_beam_is_lost_and_the_rest_answered(files, scans, landfall_command):

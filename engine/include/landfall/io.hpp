@@ -64,6 +64,9 @@ void save_trajectory(std::span<const StampedPose> poses, const std::filesystem::
 
 // A prior as JSON that mirrors the C++ types: {"window": {...}}, {"mixture": [...]}; docs/formats.md.
 PosePrior load_prior(const std::filesystem::path& json);
+// Named places of a map, each a Region or a Window: {kitchen: {polygon_map: [[x, y], ...]}, door:
+// {T_map_robot: [x, y, theta], half_x_m: ...}} as yaml; docs/formats.md.
+std::map<std::string, PosePrior> load_places(const std::filesystem::path& yaml);
 
 // One results.jsonl line, without the line end.
 std::string to_json_line(const SearchResult& result, std::size_t index);

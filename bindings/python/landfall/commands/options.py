@@ -14,6 +14,7 @@ from landfall._landfall import (
     PreparedMap,
     Sensor,
     load_map,
+    load_places,
     load_prior,
     load_sensors,
 )
@@ -53,13 +54,23 @@ def _map_name(path: Path) -> str:
     return path.resolve().parent.name if path.stem == "map" else path.stem
 
 
-def read_prior(text: str) -> PosePrior:
-    """Raises UnknownName, FileNotFound, FileFormat."""
+def read_prior(text: str, maps: list[Path]) -> PosePrior:
+    """place:NAME is looked up beside the map. Raises UnknownName, InvalidArgument, FileNotFound, FileFormat."""
     if text == "anywhere":
         return PosePrior(Anywhere())
     if text.startswith("place:"):
-        raise UnknownName(f"--prior {text}: no places file is known, so there is no place '{text[6:]}'")
+        return _place(text.removeprefix("place:"), maps)
     return load_prior(Path(text))
+
+
+def _place(name: str, maps: list[Path]) -> PosePrior:
+    if len(maps) != 1:
+        raise InvalidArgument(f"--prior place:{name}: a place is of one map, and {len(maps)} are given")
+    file = maps[0].with_suffix(".places.yaml")
+    places = load_places(file)
+    if name not in places:
+        raise UnknownName(f"--prior place:{name}: {file} has no such place; it has {_quoted(places)}")
+    return places[name]
 
 
 def read_log(path: Path, sensor_file: Path | None = None) -> Log:

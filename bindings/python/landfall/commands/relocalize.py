@@ -118,7 +118,7 @@ def run(
         require_picture(picture)
     maps = load_maps(map)
     composition = Composition(window_max_scans, not no_align, threads)
-    question = Question(maps, read_prior(prior), options, one_at_a_time, composition)
+    question = Question(maps, read_prior(prior, map), options, one_at_a_time, composition)
     scans = _scans(log, read_log(log, sensor), consistent)
     queries = _queries(scans, window_scans, window_s, disjoint, every, min_motion_m)[:limit]
     if not queries:

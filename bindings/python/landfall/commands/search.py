@@ -61,7 +61,7 @@ def run(
         require_picture(picture)
     maps = load_maps(map)
     asked = _pick(scan, index, sensor)
-    result = search_batch(maps, [read_prior(prior)], [asked], options)[0]
+    result = search_batch(maps, [read_prior(prior, map)], [asked], options)[0]
     print(result.to_json(index))
     if picture is not None:
         from landfall.pictures import draw_answer  # matplotlib takes a while to import
