@@ -14,20 +14,23 @@
 
 namespace landfall::bench {
 
-Place office_place() {
-  const PreparedMap map(office());
+std::vector<Pose2> random_free_poses(const GridMap& map, std::size_t count) {
   internal::CounterRng rng(1);
   std::vector<Pose2> T_map_robot;
-  while (T_map_robot.size() < scans_per_place) {
-    const Pose2 pose{.x_m = 30.0 * rng.uniform(),
-                     .y_m = 30.0 * rng.uniform(),
-                     .theta_rad = 2.0 * std::numbers::pi * rng.uniform()};
-    if (map.grid().at(map.grid().cell_of({pose.x_m, pose.y_m})) == Occupancy::free)
-      T_map_robot.push_back(pose);
+  while (T_map_robot.size() < count) {
+    const Pose2 pose = map.T_map_grid * Pose2{.x_m = map.resolution_m * map.width_cells * rng.uniform(),
+                                              .y_m = map.resolution_m * map.height_cells * rng.uniform(),
+                                              .theta_rad = 2.0 * std::numbers::pi * rng.uniform()};
+    if (map.at(map.cell_of({pose.x_m, pose.y_m})) == Occupancy::free) T_map_robot.push_back(pose);
   }
+  return T_map_robot;
+}
+
+Place office_place() {
+  const PreparedMap map(office());
   const auto sensor = std::make_shared<const Sensor>(
       make_fan({.beams = 180, .first_rad = -std::numbers::pi / 2.0, .step_rad = std::numbers::pi / 180.0}));
-  return {"office", map, simulate(map, sensor, T_map_robot)};
+  return {"office", map, simulate(map, sensor, random_free_poses(map.grid(), scans_per_place))};
 }
 
 Place building_place(const std::string& name) {

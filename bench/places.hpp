@@ -21,6 +21,9 @@ struct Place {
   std::vector<Scan> scans;
 };
 
+// Evenly over the free cells, which the map must have; the same for the same map.
+std::vector<Pose2> random_free_poses(const GridMap& map, std::size_t count);
+
 // Scans of 180 beams from random free poses.
 Place office_place();
 // Queries evenly spread over the building's log.

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "bench/office.hpp"
+#include "bench/places.hpp"
 #include "engine/to_raycast.hpp"
 #include "landfall/io.hpp"
+#include "raycast/segment_tree.hpp"
 #include "tests/data_folder.hpp"
 #include "tests/raycast/agreement.hpp"
 #include "tests/raycast/grid_oracle.hpp"
@@ -20,25 +22,15 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int pose_count = 500;
 
-std::vector<raycast::Pose> free_poses(const GridMap& grid) {
-  std::mt19937 rng(1);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  std::vector<raycast::Pose> poses;
-  while (poses.size() < pose_count) {
-    const Pose2 pose = grid.T_map_grid * Pose2{.x_m = uniform(rng) * grid.width_cells * grid.resolution_m,
-                                               .y_m = uniform(rng) * grid.height_cells * grid.resolution_m,
-                                               .theta_rad = uniform(rng) * 2.0 * pi};
-    if (grid.at(grid.cell_of({.x_m = pose.x_m, .y_m = pose.y_m})) == Occupancy::free)
-      poses.push_back(internal::to_raycast(pose));
-  }
-  return poses;
-}
-
 RayPlace make_place(std::string name, GridMap grid, const std::optional<WallMap>& plan) {
-  RayPlace place{.name = std::move(name), .grid = std::move(grid), .has_own_walls = plan.has_value()};
+  RayPlace place;
+  place.name = std::move(name);
+  place.grid = std::move(grid);
+  place.has_own_walls = plan.has_value();
   place.walls = internal::to_raycast(plan ? *plan : to_walls(place.grid));
   place.embree = std::make_shared<const raycast::WallTrace>(place.walls);
-  place.poses = free_poses(place.grid);
+  for (const Pose2& pose : random_free_poses(place.grid, pose_count))
+    place.poses.push_back(internal::to_raycast(pose));
   if (plan) {
     place.scene = std::make_shared<const raycast::Scene>(place.walls);
     return place;
@@ -98,6 +90,27 @@ bool agrees(const RayPlace& place, const char* what, const Caster& caster) {
          rays_agree(place, what, [&](auto rays, auto& ranges_m) { caster.cast_rays(rays, ranges_m); });
 }
 
+// With the nearest of all walls, one by one.
+bool cones_agree(const RayPlace& place) {
+  const std::vector<raycast::Beam> cones = ring_of_cones();
+  std::vector<float> ranges_m(cones.size());
+  testing::Agreement agreement;
+  for (std::size_t p = 0; p < place.poses.size(); p += 50) {
+    const raycast::Pose& pose = place.poses[p];
+    place.scene->cast_fans({&pose, 1}, cones, ranges_m);
+    for (std::size_t b = 0; b < cones.size(); ++b)
+      agreement.add(ranges_m[b], range_max_m, [&](double shift_m) {
+        const double theta_rad = pose.theta_rad + cones[b].theta_rad;
+        return raycast::nearest_in_cone(place.walls, {.x_m = pose.x_m - shift_m * std::sin(theta_rad),
+                                                      .y_m = pose.y_m + shift_m * std::cos(theta_rad),
+                                                      .theta_rad = theta_rad,
+                                                      .half_angle_rad = cones[b].half_angle_rad,
+                                                      .range_max_m = range_max_m});
+      });
+  }
+  return holds(agreement, place, "cones");
+}
+
 }  // namespace
 
 std::vector<raycast::Beam> fan(int count, double step_rad, double half_angle_rad) {
@@ -110,6 +123,10 @@ std::vector<raycast::Beam> fan(int count, double step_rad, double half_angle_rad
                      .half_angle_rad = half_angle_rad,
                      .range_max_m = range_max_m});
   return beams;
+}
+
+std::vector<raycast::Beam> ring_of_cones() {
+  return fan(24, pi / 12.0, pi / 30.0);
 }
 
 std::vector<raycast::Ray> scattered_rays(const RayPlace& place) {
@@ -143,6 +160,7 @@ float walk_cells(const GridMap& grid, const raycast::Ray& ray) {
 
 bool agrees_with_oracle(const RayPlace& place) {
   if (!agrees(place, "scene", *place.scene) || !agrees(place, "embree", *place.embree)) return false;
+  if (!cones_agree(place)) return false;
   if (place.distance_walk == nullptr) return true;
   return agrees(place, "distance_walk", *place.distance_walk) &&
          rays_agree(place, "grid_walk",

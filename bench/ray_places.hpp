@@ -32,6 +32,8 @@ struct RayPlace {
 std::vector<RayPlace> ray_places();
 
 std::vector<raycast::Beam> fan(int count, double step_rad, double half_angle_rad);
+// 24 cones of 12 degrees.
+std::vector<raycast::Beam> ring_of_cones();
 // As many rays as a fan of 180 has per pose, in an order that has nothing in common.
 std::vector<raycast::Ray> scattered_rays(const RayPlace& place);
 // By the exact walk from cell to cell, in metres; grids alone.

@@ -55,8 +55,8 @@ def _rate(median: Median | None, unit: str) -> str:
 
 
 def ray_table(medians: Mapping[str, Median]) -> Table:
-    """M rays/s: a row per pattern and way of casting, a column per place; the way that the engine chooses is
-    bold, with its share of the fastest way's rate where that is another."""
+    """M rays/s: a row per pattern and way of casting, a column per place; of several ways the one
+    that the engine chooses is bold, with its share of the fastest way's rate where that is another."""
     rates: dict[tuple[str, str, str], Median] = {}
     for name, median in medians.items():
         place, pattern, way = name.split("/")
@@ -74,11 +74,12 @@ def _way_cell(rates: Mapping[tuple[str, str, str], Median], place: str, pattern:
     if median is None:
         return "-"
     rate = median.counters["rays/s"]
-    if "chosen" not in median.counters:
-        return _millions(rate)
-    fastest = max(
+    all_ways = [
         other.counters["rays/s"] for (at, of, _), other in rates.items() if (at, of) == (place, pattern)
-    )
+    ]
+    if "chosen" not in median.counters or len(all_ways) < 2:
+        return _millions(rate)
+    fastest = max(all_ways)
     share = f" ({100.0 * rate / fastest:.0f} % of the fastest)" if rate < fastest else ""
     return f"**{_millions(rate)}**{share}"
 

@@ -32,6 +32,7 @@ void WayReport::ReportRuns(const std::vector<Run>& runs) {
 
 void WayReport::print_choices() const {
   for (const auto& [pattern, ways] : by_pattern_) {
+    if (ways.size() < 2) continue;
     std::string chosen = "none", fastest;
     double chosen_rate = 0.0, fastest_rate = 0.0;
     for (const auto& [way, rates] : ways) {

@@ -18,7 +18,8 @@ class WayReport : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& runs) override;
   void Finalize() override { to_.Finalize(); }
 
-  // A line on stderr per place and pattern: the chosen way's share of the fastest's rate, both medians.
+  // A line on stderr per place and pattern that two ways or more ran: the chosen way's share of the fastest's
+  // rate, both medians.
   void print_choices() const;
 
  private:
