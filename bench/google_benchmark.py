@@ -39,16 +39,22 @@ class Suite:
 
 
 def load_suite(path: Path) -> Suite:
-    """Raises OSError, or ValueError where this is not Google Benchmark's JSON."""
+    """Raises OSError, or ValueError where this is not Google Benchmark's JSON or a benchmark failed."""
+    failed = []
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         runs: dict[str, list[dict]] = defaultdict(list)
         for entry in sorted(content["benchmarks"], key=lambda entry: entry.get("family_index", 0)):
-            if entry.get("aggregate_name", "median") == "median":
+            if entry.get("error_occurred"):
+                failed.append(f"{entry['name']}: {entry.get('error_message', 'failed')}")
+            elif entry.get("aggregate_name", "median") == "median":
                 runs[entry.get("run_name", entry["name"])].append(entry)
-        return Suite(content["context"]["date"], {name: _median(name, runs[name]) for name in runs})
+        suite = Suite(content["context"]["date"], {name: _median(name, runs[name]) for name in runs})
     except (ValueError, KeyError, TypeError, AttributeError) as cause:
         raise ValueError(f"{path}: not a JSON file of Google Benchmark: {cause!r}") from None
+    if failed:
+        raise ValueError(f"{path}: {failed[0]}")
+    return suite
 
 
 def _median(name: str, entries: list[dict]) -> Median:

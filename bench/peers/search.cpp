@@ -5,7 +5,7 @@
 
 #include "bench/peers/comparisons.hpp"
 #include "bench/peers/textbook.hpp"
-#include "bench/peers/thread_time.hpp"
+#include "bench/thread_time.hpp"
 
 namespace landfall::bench {
 namespace {

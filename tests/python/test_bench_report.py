@@ -234,6 +234,14 @@ def test_the_growth_picture_belongs_to_the_results_page(report, tmp_path, page, 
     assert (tmp_path / "growth.png").exists() == drawn
 
 
+def test_a_benchmark_that_failed_is_an_error(module, tmp_path):
+    entry = {"name": "floor/1", "error_occurred": True, "error_message": "not proven"}
+    file = tmp_path / "bench_growth.json"
+    file.write_text(json.dumps({"context": {"date": "2026-11-22T10:00"}, "benchmarks": [entry]}))
+    with pytest.raises(ValueError, match=r"bench_growth\.json: floor/1: not proven"):
+        module("google_benchmark").load_suite(file)
+
+
 def test_a_run_names_instruction_set_and_executor(report):
     machine = report.circumstances([])["machine"]
     assert machine.endswith(f", {landfall.active_isa()}, {landfall.active_executor()}")
