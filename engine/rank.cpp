@@ -73,9 +73,8 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
                              .verification = {},
                              .ways_to_settle = {},
                              .hypothesis = {}});
-    } else {
-      const double log_likelihood = own ? own_log_evidence(share, 0.0) : log_evidence(share, points);
-      found.log_rest = log_add(found.log_rest, log_prior + log_likelihood);
+    } else if (!own) {  // own scores weigh little without the ranges, which are known of the modes alone
+      found.log_rest = log_add(found.log_rest, log_prior + log_evidence(share, points));
     }
   }
   return found;
@@ -89,13 +88,13 @@ struct Ranked {
 };
 
 double log_likelihood(const Modes& map, const Mode& mode) {
-  if (map.perfect_score > 0.0) return own_log_evidence(mode.share, mode.verification.explained);
+  if (map.perfect_score > 0.0) return own_log_evidence(mode.share, mode.verification.log_ranges);
   return log_evidence(mode.share + share_of_rays(mode.verification), map.points);
 }
 
 // What weighs beside the best pose that it is none.
 double elsewhere(const Modes& map, const Mode& best, double lead_nats) {
-  if (map.perfect_score > 0.0) return own_elsewhere_weight(best.share, best.verification.explained);
+  if (map.perfect_score > 0.0) return own_elsewhere_weight(best.verification.log_ranges, lead_nats);
   const double lattice_share = share_of(best.best.score, map.points);
   return elsewhere_weight(std::min(1.0, lattice_share + map.missed_share), lead_nats);
 }
@@ -160,7 +159,8 @@ void decide(SearchResult& result) {
 void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result) {
   std::vector<Ranked> all = in_order(maps);
   if (!all.empty()) {
-    weigh_disagreement(all);
+    const bool own = maps.front().perfect_score > 0.0;
+    if (!own) weigh_disagreement(all);
     const double total = log_total(maps, all);
     if (all.size() > static_cast<std::size_t>(max_hypotheses))
       all.resize(static_cast<std::size_t>(max_hypotheses));

@@ -89,12 +89,13 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
 }
 
 // The way to settle that the map explains more of; the first where it is the same.
-void verify_settled(const Query& query, Mode& mode) {
+void verify_settled(const Query& query, RangeLikelihood range_likelihood, Mode& mode) {
   mode.verification.explained = -1.0;
   for (const std::vector<Pose2>& T_map_part : mode.ways_to_settle) {
     const Pose2& T_map_robot = T_map_part[query.scan.parts->reference];
     const Verification verification =
-        verify(query.map, remount(query.scan, T_map_part), std::span(&T_map_robot, 1)).front();
+        verify(query.map, remount(query.scan, T_map_part), std::span(&T_map_robot, 1), range_likelihood)
+            .front();
     if (verification.explained <= mode.verification.explained) continue;
     mode.verification = verification;
     mode.hypothesis.T_map_robot = T_map_robot;
@@ -103,13 +104,15 @@ void verify_settled(const Query& query, Mode& mode) {
 
 void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.verify_ms);
+  const RangeLikelihood range_likelihood =
+      found.perfect_score > 0.0 ? RangeLikelihood::computed : RangeLikelihood::left_out;
   if (query.scan.parts) {
     parallel_for(found.modes.size(), query.threads,
-                 [&](std::size_t i) { verify_settled(query, found.modes[i]); });
+                 [&](std::size_t i) { verify_settled(query, range_likelihood, found.modes[i]); });
   } else {
     std::vector<Pose2> T_map_robot;
     for (const Mode& mode : found.modes) T_map_robot.push_back(mode.hypothesis.T_map_robot);
-    const std::vector<Verification> verified = verify(query.map, query.scan, T_map_robot);
+    const std::vector<Verification> verified = verify(query.map, query.scan, T_map_robot, range_likelihood);
     for (std::size_t i = 0; i < verified.size(); ++i) found.modes[i].verification = verified[i];
   }
   for (Mode& mode : found.modes) mode.hypothesis.explained = mode.verification.explained;

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from landfall import __version__
-from landfall.commands import convert, demo, evaluate, map, methods, relocalize, search, simulate
+from landfall.commands import convert, demo, evaluate, map, methods, relocalize, reproduce, search, simulate
 from landfall.errors import Error
 
 try:
@@ -24,7 +24,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for command in (demo, relocalize, search, map, simulate, evaluate, convert, methods):
+for command in (demo, relocalize, search, map, simulate, evaluate, convert, methods, reproduce):
     name = command.__name__.rsplit(".", 1)[-1]
     app.command(name)(command.run)
 

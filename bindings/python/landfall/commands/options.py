@@ -55,7 +55,7 @@ def _map_name(path: Path) -> str:
 
 
 def read_prior(text: str, maps: list[Path]) -> PosePrior:
-    """place:NAME is looked up beside the map. Raises UnknownName, InvalidArgument, FileNotFound, FileFormat."""
+    """A place is looked up beside the map. Raises UnknownName, InvalidArgument, FileNotFound, FileFormat."""
     if text == "anywhere":
         return PosePrior(Anywhere())
     if text.startswith("place:"):
