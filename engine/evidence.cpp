@@ -52,7 +52,7 @@ double own_log_evidence(double share, double log_ranges) {
 }
 
 double own_elsewhere_weight(double log_ranges, double lead_nats) {
-  constexpr double nats = 2.2;
+  constexpr double nats = 1.3;
   constexpr double nats_per_nat = 0.4;
   constexpr double longest_lead_nats = 8.0;
   return std::exp(nats - nats_per_nat * log_ranges - std::min(longest_lead_nats, lead_nats));

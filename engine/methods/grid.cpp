@@ -130,7 +130,7 @@ class HeadingScorer {
     if (first > last) return;
     const int first_col = std::max(first * block_cells, search_.box.first_col);
     const int last_col = std::min(last * block_cells + block_cells - 1, search_.box.last_col);
-    const auto cols = static_cast<std::size_t>(last_col - first_col + 1);
+    const std::size_t cols = static_cast<std::size_t>(last_col) + 1 - static_cast<std::size_t>(first_col);
     scores_.resize(kernels::whole_columns(cols));
     kernels::score_cells(search_.view.at(row, first_col),
                          {.offset = offsets_.data(),

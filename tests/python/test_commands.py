@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 
 import landfall
 import pytest
@@ -199,3 +200,19 @@ def test_demo(tmp_path, landfall_command):
         "--json",
     )
     assert json.loads(evaluated.out)["success_rate"] >= 0.9
+
+
+@pytest.mark.parametrize("method", ["branch_and_bound", "grid"])
+def test_search_at_a_named_place(files, landfall_command, method):
+    truth = POSES[5]
+    (files.folder / "floor.places.yaml").write_text(
+        f"by the door: {{T_map_robot: [{truth.x_m + 0.3}, {truth.y_m - 0.2}, {truth.theta_rad}],"
+        " half_x_m: 0.6, half_y_m: 0.6, half_theta_rad: 0.5}\n"
+    )
+    done = landfall_command(
+        "search", "--map", files.map, "--scan", files.log, "--index", 5,
+        "--prior", "place:by the door", "--method", method, "--rotation-step-deg", 2,
+    )  # fmt: skip
+    assert done.code == 0, done.err
+    best = json.loads(done.out)["hypotheses"][0]
+    assert math.hypot(best["x_m"] - truth.x_m, best["y_m"] - truth.y_m) < 0.1
