@@ -60,6 +60,17 @@ const std::vector<std::int8_t>& PreparedState::global_grid(Contours contours) co
   return grid.get([this, contours] { return internal::global_grid(grid_, contours); });
 }
 
+std::shared_ptr<const MapSpectra> PreparedState::field_spectra(int reach_cells) const {
+  const int reach = prepared_reach(grid_.width_cells, grid_.height_cells, reach_cells);
+  const std::vector<std::uint8_t>& values = field();
+  const std::scoped_lock lock(spectra_mutex_);
+  std::shared_ptr<const MapSpectra>& spectra = spectra_[reach];
+  if (spectra == nullptr)
+    spectra = std::make_shared<const MapSpectra>(std::vector<float>(values.begin(), values.end()),
+                                                 choose_tiles(grid_.width_cells, grid_.height_cells, reach));
+  return spectra;
+}
+
 const WallMap& PreparedState::walls() const {
   return plan_ ? *plan_ : walls_.get([this] { return to_walls(grid_); });
 }
@@ -124,6 +135,8 @@ std::size_t PreparedState::memory_bytes() const {
   if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();
+  const std::scoped_lock spectra_lock(spectra_mutex_);
+  for (const auto& [reach, spectra] : spectra_) bytes += spectra->memory_bytes();
   const std::scoped_lock lock(masks_mutex_);
   for (const auto& [key, cells] : free_cells_) {
     bytes += 8 * cells.mask->words.capacity();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/block_mask.hpp"
+#include "engine/methods/fft/map_spectra.hpp"
 #include "engine/methods/grid/global_grid.hpp"
 #include "engine/search_tables.hpp"
 #include "engine/tile_layout.hpp"
@@ -54,6 +55,8 @@ class PreparedState {
   [[nodiscard]] const BoundTable& coarse_bound_table() const;
   // Of method `grid`.
   [[nodiscard]] const std::vector<std::int8_t>& global_grid(Contours contours) const;
+  // The field's, for end points that are up to reach_cells away from the robot's cell along either axis.
+  [[nodiscard]] std::shared_ptr<const MapSpectra> field_spectra(int reach_cells) const;
   [[nodiscard]] const WallMap& walls() const;
   // The map, in its own frame, ready for rays: a plan by its walls, a grid in the way that is the fastest.
   [[nodiscard]] const raycast::Scene& scene() const;
@@ -76,6 +79,8 @@ class PreparedState {
   Lazy<std::vector<std::int8_t>> uncorrected_grid_;
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
+  mutable std::mutex spectra_mutex_;
+  mutable std::map<int, std::shared_ptr<const MapSpectra>> spectra_;  // by reach
   mutable std::mutex masks_mutex_;
   struct FreeCells {
     SharedMask mask;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/domain.hpp"
@@ -50,6 +51,7 @@ struct Proposal {
   // Of a method whose scores are its own: the score of a scan that the map fits in every cell. 0: scores are
   // sums of the likelihood field.
   double perfect_score = 0.0;
+  std::string way;  // which of its ways a method took, where it has several
 };
 
 inline constexpr std::size_t max_candidates = std::size_t{1} << 16;

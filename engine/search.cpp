@@ -57,12 +57,19 @@ struct PreparedQuestion {
   }
 };
 
+// "fft (AVX2)" becomes "fft (AVX2, direct)"; several maps may be searched in several ways.
+void name_way(const std::string& way, SearchResult& result) {
+  if (way.empty() || result.method.find(", " + way) != std::string::npos) return;
+  result.method.insert(result.method.size() - 1, ", " + way);
+}
+
 Proposal propose(const Query& query, const Method& method, SearchResult& result) {
   const StageTimer timer(result.times.propose_ms);
   Proposal proposal = method.propose(query);
   result.proven = result.proven && proposal.proven;
   result.counts.poses_scored += proposal.counts.poses_scored;
   result.counts.bounds_computed += proposal.counts.bounds_computed;
+  name_way(proposal.way, result);
   return proposal;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view default_method = "branch_and_bound";
 
-constexpr std::array<Method, 5> table{{
+constexpr std::array<Method, 6> table{{
     {.info = {.name = "exhaustive",
               .summary = "scores every pose of the prior's lattice; the oracle",
               .source = ""},
@@ -35,6 +35,10 @@ constexpr std::array<Method, 5> table{{
               .source = "Courcelle & Horn 1999"},
      .propose = propose_grid_turned,
      .centers_headings = true},
+    {.info = {.name = "fft",
+              .summary = "all translations at once by FFT, per heading; point by point where that is less",
+              .source = "Espino, Moreno, Curto, Aguilar"},
+     .propose = propose_fft},
 }};
 
 }  // namespace

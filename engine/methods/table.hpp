@@ -23,5 +23,6 @@ Proposal propose_branch_and_bound(const Query& query);
 Proposal propose_grid(const Query& query);
 Proposal propose_grid_uncorrected(const Query& query);
 Proposal propose_grid_turned(const Query& query);
+Proposal propose_fft(const Query& query);
 
 }  // namespace landfall::internal

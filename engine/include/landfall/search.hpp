@@ -64,7 +64,8 @@ struct SearchResult {
   Verdict verdict = Verdict::lost;
   std::string reason;   // why lost (no valid beam, prior without free cell, ...); empty otherwise
   bool proven = false;  // no lattice pose of the prior scores higher than the best one found
-  std::string method;   // the method that answered ("auto" resolved), with its instruction set
+  std::string method;   // the method that answered ("auto" resolved), with its instruction set and, where
+                        // it has several, its way: "fft (AVX2, direct)"
   int beams_valid = 0;
   int beams_echo = 0;
   double stamp_s = 0.0;
