@@ -84,7 +84,7 @@ std::vector<float> convolved(const std::vector<float>& values, int width, int he
   const int half = side / 2;
   for (int dy = -half; dy <= half; ++dy) {
     for (int dx = -half; dx <= half; ++dx) {
-      const float weight = mask[static_cast<std::size_t>((dy + half) * side + dx + half)];
+      const float weight = mask.data()[(dy + half) * side + dx + half];
       if (weight == 0.0F) continue;
       for (int row = std::max(0, dy); row < std::min(height, height + dy); ++row)
         for (int col = std::max(0, dx); col < std::min(width, width + dx); ++col)

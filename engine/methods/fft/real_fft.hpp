@@ -14,7 +14,7 @@ namespace landfall::internal {
 // FFTW's vector code asks for aligned planes.
 template <class T>
 struct AlignedAllocator {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): the standard's name
   static constexpr std::align_val_t alignment{64};
 
   AlignedAllocator() = default;
