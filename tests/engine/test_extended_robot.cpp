@@ -24,6 +24,7 @@ std::vector<Scan> turn_of(const std::vector<std::vector<float>>& ranges_m) {
   const auto sensor =
       std::make_shared<const Sensor>(make_fan({.beams = beams, .step_rad = 0.5, .range_max_m = 9.0}));
   std::vector<Scan> turn;
+  turn.reserve(ranges_m.size());
   for (const auto& ranges : ranges_m) turn.push_back({.sensor = sensor, .ranges_m = ranges});
   return turn;
 }
@@ -31,6 +32,7 @@ std::vector<Scan> turn_of(const std::vector<std::vector<float>>& ranges_m) {
 // Which readings of one sonar are kept.
 std::vector<int> kept_of(const std::vector<float>& ranges_m, bool full_turn = true) {
   std::vector<std::vector<float>> scans;
+  scans.reserve(ranges_m.size());
   for (const float range_m : ranges_m) scans.push_back({range_m});
   const std::vector<Scan> filtered = keep_local_minima(turn_of(scans), full_turn);
   std::vector<int> kept;
@@ -127,7 +129,7 @@ TEST(BlurredMap, TwiceIsBothMapsOnce) {
     double sum = 0.0;
     for (int dy = -2; dy <= 2; ++dy)
       for (int dx = -2; dx <= 2; ++dx)
-        sum += static_cast<double>(mask[static_cast<std::size_t>((dy + 2) * 5 + dx + 2)]) *
+        sum += static_cast<double>(mask.data()[(dy + 2) * 5 + dx + 2]) *
                static_cast<double>(once[grid.index({end_point.col + dx, end_point.row + dy})]);
     EXPECT_NEAR(twice[grid.index(end_point)], sum, 1e-5);
   }

@@ -149,6 +149,7 @@ TEST(Fft, PlansFromManyThreads) {
   const Question question{.world = world};
   const Proposal expected = internal::propose_exhaustive(question.query(1));
   std::vector<std::thread> threads;
+  threads.reserve(8);
   for (int i = 0; i < 8; ++i)
     threads.emplace_back([&, i] {
       GridMap wider = world.map.grid();

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from landfall._landfall import Beam, GridMap, Pose2, PreparedMap, Scan, Sensor, WallMap, simulate_ranges
+from landfall._landfall import Beam, GridMap, Pose2, PreparedMap, Scan, Sensor, simulate_ranges
 
 CELL_M = 0.1
 GRID_CELLS = 128
-ROOM_M = (1.9, 3.4, 10.9, 9.4)  # x0, y0, x1, y1: in the middle of the grid
+ROOM_M = (1.85, 3.35, 10.95, 9.45)  # x0, y0, x1, y1: in the middle of the grid
 # The paper's test points, decimetres in its matrices.
 TEST_POINTS = {"A": (4.710, 6.748), "B": (6.211, 6.748), "C": (7.705, 6.748)}
 CLEARANCE_M = 0.4  # of a robot's centre to the nearest wall
@@ -46,8 +46,7 @@ def make_room(seed: int) -> PreparedMap:
         box = _box_along(int(side), rng)
         if all(_distance(box, point) > 0.5 for point in TEST_POINTS.values()):
             boxes.append(box)
-    walls = WallMap([wall for box in (ROOM_M, *boxes) for wall in _faces(box)])
-    return PreparedMap(_grid(walls, boxes), field_sigma_m=CELL_M)
+    return PreparedMap(_grid(boxes), field_sigma_m=CELL_M)
 
 
 def _box_along(side: int, rng: np.random.Generator) -> Box:
@@ -61,25 +60,28 @@ def _box_along(side: int, rng: np.random.Generator) -> Box:
     return (x0, y, x0 + deep, y + along) if side == 2 else (x1 - deep, y, x1, y + along)
 
 
-def _faces(box: Box) -> list[tuple[float, float, float, float]]:
-    x0, y0, x1, y1 = box
-    return [(x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0)]
-
-
-def _grid(walls: WallMap, boxes: Sequence[Box]) -> GridMap:
-    """Walls occupied; free in the room, unknown outside of it and inside of furniture."""
+def _grid(boxes: Sequence[Box]) -> GridMap:
+    """Free in the room, unknown outside and inside of furniture; the faces that can be seen occupied."""
     center = (np.arange(GRID_CELLS) + 0.5) * CELL_M
     x, y = np.meshgrid(center, center)
     cells = np.full((GRID_CELLS, GRID_CELLS), 2, np.uint8)
     cells[_inside(ROOM_M, x, y)] = 0
     for box in boxes:
         cells[_inside(box, x, y)] = 2
-    drawn = walls.to_grid(resolution_m=CELL_M, margin_m=0.0)
-    col = round(drawn.T_map_grid.x_m / CELL_M)
-    row = round(drawn.T_map_grid.y_m / CELL_M)
-    part = cells[row : row + drawn.height_cells, col : col + drawn.width_cells]
-    part[drawn.cells == 1] = 1
+    for box in (ROOM_M, *boxes):
+        col0, row0, col1, row1 = (math.floor(side_m / CELL_M) for side_m in box)
+        cells[row0 : row1 + 1, [col0, col1]] = 1
+        cells[[row0, row1], col0 : col1 + 1] = 1
+    cells[(cells == 1) & ~_beside_free(cells)] = 2
     return GridMap(cells, CELL_M, (0.0, 0.0, 0.0))
+
+
+def _beside_free(cells: np.ndarray) -> np.ndarray:
+    """Cells with a free one among their eight neighbours: of walls, those that a robot may see."""
+    free = np.pad(cells == 0, 1)
+    height, width = cells.shape
+    shifted = [free[dy : dy + height, dx : dx + width] for dy in range(3) for dx in range(3)]
+    return np.logical_or.reduce(shifted)
 
 
 def _inside(box: Box, x: np.ndarray, y: np.ndarray) -> np.ndarray:
