@@ -125,7 +125,7 @@ bool register_papers_volume(const Place& place) {
   return true;
 }
 
-// cost_model.hpp: nanoseconds per real and level of a transform, and per block and point of direct sums.
+// cost_model.hpp: time per real and level of a transform, and per block and point of direct sums.
 void register_cost_model(const Place& place) {
   for (const int side : {128, 256, 512, 1024, 2048, 4096})
     add("cost_model/transform/" + std::to_string(side), [side](benchmark::State& state) {
@@ -140,8 +140,8 @@ void register_cost_model(const Place& place) {
         correlator.correlate(0);
       }
       const double reals = static_cast<double>(side) * side;
-      state.counters["ns/real/level"] =
-          benchmark::Counter(2e-9 * reals * std::log2(reals),
+      state.counters["per_real_and_level"] =
+          benchmark::Counter(2.0 * reals * std::log2(reals),
                              benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     });
   add("cost_model/direct", [&place](benchmark::State& state) {
@@ -152,8 +152,8 @@ void register_cost_model(const Place& place) {
     for (const internal::SharedMask& mask : question.domain.mask_of_heading)
       for (const std::uint64_t word : mask->words) blocks += word != 0 ? 1.0 : 0.0;
     for (auto _ : state) benchmark::DoNotOptimize(internal::propose_directly(question.query(1)));
-    state.counters["ns/block/point"] =
-        benchmark::Counter(1e-9 * blocks * static_cast<double>(question.points.size()),
+    state.counters["per_block_and_point"] =
+        benchmark::Counter(blocks * static_cast<double>(question.points.size()),
                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   });
 }

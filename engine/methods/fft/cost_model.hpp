@@ -9,17 +9,22 @@ namespace landfall::internal {
 // One transform of a plane of reals, with its share of what is done beside it (drawing, product, maxima).
 // Planes beyond the caches cost more.
 inline double transform_ns(int rows, int cols) {
-  constexpr double ns_per_real_and_level = 0.10;
+  constexpr double ns_per_real_and_level = 0.12;
   constexpr double cached_reals = 1 << 18;
   constexpr double beyond_caches = 1.6;
+  constexpr double much_larger_reals = 1 << 23;
+  constexpr double far_beyond_caches = 4.2;
   const double reals = static_cast<double>(rows) * cols;
-  return ns_per_real_and_level * reals * std::log2(reals) * (reals > cached_reals ? beyond_caches : 1.0);
+  double slower = 1.0;
+  if (reals > cached_reals) slower = beyond_caches;
+  if (reals > much_larger_reals) slower = far_beyond_caches;
+  return slower * ns_per_real_and_level * reals * std::log2(reals);
 }
 
 // One block of 8 x 8 poses at one heading, point by point.
 inline double direct_ns(double points) {
   constexpr double ns_per_block = 20.0;
-  constexpr double ns_per_block_and_point = 2.5;
+  constexpr double ns_per_block_and_point = 0.7;
   return ns_per_block + ns_per_block_and_point * points;
 }
 
