@@ -310,7 +310,7 @@ std::vector<std::string> contours_of(const std::vector<std::string>& lines, Cont
   for (int row = map.height_cells - 1; row >= 0; --row) {
     std::string line;
     for (int col = 0; col < map.width_cells; ++col) {
-      const int value = cells[map.index({col, row})];
+      const std::int8_t value = cells[map.index({col, row})];
       line += value > 0 ? '#' : value < 0 ? '.' : '?';
     }
     drawing.push_back(line);
