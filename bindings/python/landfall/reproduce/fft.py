@@ -2,6 +2,10 @@
 
 A room of 6 x 9 m, eight sonars, a turn on the spot in 32 steps, 1 dm per pixel, 128 x 128 x 64 poses; the
 paper's three points, and random poses in seeded rooms.
+
+Not reproduced yet: with sonars as _sonar_room.py simulates them the minimum filter loses more than it gains,
+and the method finds more poses without it (of 300, 85 % against 15 %). A cone's minimum is reached anywhere
+within its 30 degrees, and readings that are too long have local minima of their own.
 """
 
 from __future__ import annotations
