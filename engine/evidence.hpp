@@ -50,8 +50,8 @@ inline constexpr double explains_more_nats = 30.0;
 double elsewhere_weight(double share, double lead_nats);
 
 // The same for a method whose scores are its own: share is its score over that of a perfect fit, log_ranges
-// what ray casting says (verify.hpp). Chosen once on simulated sonars in furnished rooms other than those
-// reported.
+// what ray casting says (verify.hpp). Chosen on simulated sonars in furnished rooms, of other seeds than
+// those reported.
 double own_log_evidence(double share, double log_ranges);
 double own_elsewhere_weight(double log_ranges, double lead_nats);
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "bench/peers/comparisons.hpp"
+#include "bench/peers/sampled_scans.hpp"
+#include "engine/methods/fft/correlation_search.hpp"
 #include "kernels/score_row.hpp"
 
 namespace landfall::bench {
@@ -15,35 +17,17 @@ namespace {
 
 using internal::EndPoints;
 using internal::HeadingCells;
-using internal::Lattice;
 
-// Some of a place's scans, each at some headings.
-struct Task {
-  static constexpr std::size_t scan_count = 3;
+// Each at some headings.
+struct Task : SampledScans {
   static constexpr int heading_count = 4;
 
-  PreparedMap map;
-  Lattice lattice;
-  std::vector<EndPoints> scans;
-
-  explicit Task(const Place& place)
-      : map(place.map), lattice(internal::make_lattice(map.grid(), 0.0, SearchOptions{}.rotation_step_rad)) {
-    for (std::size_t i = 0; i < scan_count; ++i)
-      scans.push_back(
-          internal::make_end_points(place.scans[i * place.scans.size() / scan_count], lattice.resolution_m));
-  }
+  using SampledScans::SampledScans;
   [[nodiscard]] std::size_t map_cells() const { return map.field().size(); }
   [[nodiscard]] int heading(int index) const {
     return (2 * index + 1) * lattice.headings / (2 * heading_count);
   }
 };
-
-int reach_cells(const EndPoints& points) {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    farthest = std::max(farthest, std::hypot(points.x_cells[i], points.y_cells[i]));
-  return static_cast<int>(farthest) + 2;
-}
 
 // The rows of `exhaustive`.
 class LandfallRows {
@@ -118,7 +102,8 @@ bool compare_dense_correlation(const Place& place) {
   };
   [[maybe_unused]] const auto add_peer = [&](const char* who, const auto& make) {
     const auto peer = std::make_shared<Correlators>();
-    for (const EndPoints& points : task->scans) peer->push_back(make(task->map, reach_cells(points)));
+    for (const EndPoints& points : task->scans)
+      peer->push_back(make(task->map, internal::reach_cells(points)));
     if (!same_sums(place, *task, who, *peer)) return false;
     add(who, [task, peer](benchmark::State& state) {
       time_correlation<float>(

@@ -8,7 +8,7 @@
 
 #include "bench/peers/comparisons.hpp"
 #include "bench/peers/mrpt.hpp"
-#include "engine/end_points.hpp"
+#include "bench/peers/sampled_scans.hpp"
 #include "kernels/score_row.hpp"
 
 namespace landfall::bench {
@@ -16,28 +16,16 @@ namespace {
 
 using internal::EndPoints;
 using internal::HeadingCells;
-using internal::Lattice;
 
-// The poses of some rows in the middle of a map, at one heading, for some of a place's scans.
-struct Task {
-  static constexpr std::size_t scan_count = 3;
+// The poses of some rows in the middle of a map, at one heading.
+struct Task : SampledScans {
   static constexpr int rows = 8;
 
-  PreparedMap map;
-  Lattice lattice;
-  std::vector<EndPoints> scans;
   int first_row;
   int heading;
 
   explicit Task(const Place& place)
-      : map(place.map),
-        lattice(internal::make_lattice(map.grid(), 0.0, SearchOptions{}.rotation_step_rad)),
-        first_row((lattice.height_cells - rows) / 2),
-        heading(lattice.headings / 7) {
-    for (std::size_t i = 0; i < scan_count; ++i)
-      scans.push_back(
-          internal::make_end_points(place.scans[i * place.scans.size() / scan_count], lattice.resolution_m));
-  }
+      : SampledScans(place), first_row((lattice.height_cells - rows) / 2), heading(lattice.headings / 7) {}
   [[nodiscard]] std::size_t poses() const {
     return static_cast<std::size_t>(rows) * static_cast<std::size_t>(lattice.width_cells);
   }

@@ -7,12 +7,6 @@ namespace landfall::internal {
 
 using kernels::block_cells;
 
-void SharedSearch::raise_best(std::int32_t score) {
-  std::int32_t known = best.load(std::memory_order_relaxed);
-  while (score > known && !best.compare_exchange_weak(known, score, std::memory_order_relaxed)) {
-  }
-}
-
 void BlockScorer::visit(int first_heading, int last_heading, int block_row, int block_col) {
   for (int heading = first_heading; heading < last_heading; ++heading) {
     const SharedMask& mask = search_.query.domain.mask_of_heading[static_cast<std::size_t>(heading)];
@@ -49,7 +43,7 @@ void BlockScorer::visit(int heading, std::uint64_t allowed, int block_row, int b
   const Candidate candidate = best_of_block(scores, allowed, heading, block_row, block_col);
   if (candidate.score < lowest) return;
   candidates.push_back(candidate);
-  search_.raise_best(candidate.score);
+  search_.best.raise(candidate.score);
 }
 
 }  // namespace landfall::internal

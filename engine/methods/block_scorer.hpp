@@ -1,12 +1,12 @@
 // Blocks of 8 x 8 poses at one heading: bounded, then scored. One per thread.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <vector>
 
+#include "engine/methods/best_score.hpp"
 #include "engine/query.hpp"
 
 namespace landfall::internal {
@@ -39,13 +39,10 @@ struct SharedSearch {
   kernels::WindowPlanes planes;
   std::unique_ptr<HeadingCellsOnDemand> heading_cells;
   RivalMargin margin{};
-  std::atomic<std::int32_t> best{0};
+  BestScore best{};
 
   // What a pose must score to be worth looking for.
-  [[nodiscard]] std::int32_t lowest() const {
-    return lowest_rival(best.load(std::memory_order_relaxed), margin);
-  }
-  void raise_best(std::int32_t score);
+  [[nodiscard]] std::int32_t lowest() const { return lowest_rival(best.get(), margin); }
 };
 
 class BlockScorer {

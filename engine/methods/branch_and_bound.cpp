@@ -3,6 +3,7 @@
 // headings, over all tiles that hold a free cell; their best blocks give the first incumbent; what
 // survives it is bounded heading by heading and then scored 64 poses at a time, best bound first.
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <optional>
 

@@ -8,7 +8,7 @@ import landfall.reproduce.grid as grid
 import numpy as np
 import pytest
 from landfall import GridMap, Pose2, PreparedMap
-from landfall.rooms import make_room
+from landfall.reproduce._furnished_rooms import make_room
 
 
 def test_unknown_papers_are_named(landfall_command):

@@ -1,27 +1,13 @@
 // Blocks of 8 x 8 poses at one heading, scored by the integer sum. One per thread.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <vector>
 
+#include "engine/methods/best_score.hpp"
 #include "engine/query.hpp"
 
 namespace landfall::internal {
-
-// The best score that any thread has found.
-class BestScore {
- public:
-  [[nodiscard]] std::int32_t get() const { return best_.load(std::memory_order_relaxed); }
-  void raise(std::int32_t score) {
-    std::int32_t known = get();
-    while (score > known && !best_.compare_exchange_weak(known, score, std::memory_order_relaxed)) {
-    }
-  }
-
- private:
-  std::atomic<std::int32_t> best_{0};
-};
 
 class ExactBlocks {
  public:

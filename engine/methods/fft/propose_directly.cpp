@@ -1,3 +1,4 @@
+#include <atomic>
 #include <memory>
 
 #include "engine/methods/fft/correlation_search.hpp"

@@ -1,4 +1,5 @@
 // Eigen's one-dimensional transforms, rows then columns, for a build free of the GPL.
+#include <algorithm>
 #include <cstddef>
 #include <unsupported/Eigen/FFT>
 

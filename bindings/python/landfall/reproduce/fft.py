@@ -122,10 +122,14 @@ def _random_poses(seed: int, seeds: int) -> dict:
         map = make_room(room_seed)
         for i, pose in enumerate(random_poses(map, POSES_A_ROOM, room_seed)):
             cases.append(_case(map, pose, 1000 * room_seed + i))
-    errors_dm = [translation_distance(locate(case), case.T_map_robot) * 10.0 for case in cases]
+    estimates = [locate(case) for case in cases]
+    errors_dm = [
+        translation_distance(estimate, case.T_map_robot) * 10.0
+        for estimate, case in zip(estimates, cases, strict=True)
+    ]
     return {
         "poses": len(cases),
-        "success": _share(_is_right(locate(case), case) for case in cases),
+        "success": _share(_is_right(estimate, case) for estimate, case in zip(estimates, cases, strict=True)),
         "success_without_filter": _share(
             _is_right(locate(case, minimum_filter=False), case) for case in cases
         ),

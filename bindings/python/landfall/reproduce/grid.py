@@ -29,7 +29,7 @@ from landfall._landfall import (
     simulate,
     translation_distance,
 )
-from landfall.rooms import RESOLUTION_M, make_room
+from landfall.reproduce._furnished_rooms import RESOLUTION_M, make_room
 from landfall.searching import search
 
 ROOMS = 3
