@@ -1,22 +1,24 @@
 """Measures landfall on the real maps and logs and writes bench/RESULTS.md beside the Google Benchmark suites.
 docs/growth.png is drawn from the suite bench_growth, beside bench/RESULTS.md alone.
 
-    .venv/bin/python bench/report.py [--quick] [--buildings intel,csail] [--json numbers.json]
+    .venv/bin/python bench/report.py [--quick] [--buildings intel,csail] [--papers grid,fft] [--json N.json]
 
-Everything is asked without prior. Real data are looked for in LANDFALL_DATA (default: ../shared/data beside
-the checkout); without them only the suites' tables are rewritten.
+Buildings and drives are asked without prior. Real data are looked for in LANDFALL_DATA (default:
+../shared/data beside the checkout); without them only the tables of suites and papers are rewritten.
+`--buildings ""` and `--papers ""` leave those out.
 """
 
 from __future__ import annotations
 
 import argparse
 import datetime
+import itertools
 import json
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import landfall
@@ -24,6 +26,7 @@ from buildings import NAMES, Building, measure
 from drives import trace1, wean_hall
 from growth import draw_growth, exponent_table, growth_table, load_growth
 from landfall.commands.tables import print_table
+from landfall.reproduce import experiment, experiments
 from results_page import rewrite_measured, table
 from suite_tables import suite_sections
 from targets import (
@@ -43,6 +46,7 @@ GROWTH = OUT / "bench_growth.json"
 RESULTS = ROOT / "bench" / "RESULTS.md"
 GROWTH_PICTURE = ROOT / "docs" / "growth.png"  # that RESULTS shows
 QUICK_EVERY = 10
+SEED, SEEDS, QUICK_SEEDS = 1, 20, 2
 DRIVES = {"wean_hall": WEAN_HALL, "willow_garage": WILLOW_GARAGE, "trace1": TRACE1}
 
 
@@ -55,14 +59,22 @@ def parse(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--no-drives", action="store_true", help="leave out Wean Hall, Willow Garage and the bag"
     )
+    parser.add_argument("--papers", default=",".join(experiments()), help="experiments of published papers")
     parser.add_argument("--json", type=Path, default=OUT / "report.json", help="all numbers, as they come")
     parser.add_argument("--results", type=Path, default=RESULTS, help="what to rewrite")
     options = parser.parse_args(arguments)
-    options.buildings = options.buildings.split(",")
-    unknown = sorted(set(options.buildings) - set(NAMES))
-    if unknown:
-        parser.error(f"--buildings: unknown: {', '.join(unknown)}; known: {', '.join(NAMES)}")
+    options.buildings = known_names(parser, "--buildings", options.buildings, NAMES)
+    options.papers = known_names(parser, "--papers", options.papers, experiments())
     return options
+
+
+def known_names(parser: argparse.ArgumentParser, option: str, text: str, known: Sequence[str]) -> list[str]:
+    """Of a list with commas. Ends the program where one is not known."""
+    names = text.split(",") if text else []
+    unknown = sorted(set(names) - set(known))
+    if unknown:
+        parser.error(f"{option}: unknown: {', '.join(unknown)}; known: {', '.join(known)}")
+    return names
 
 
 def data_folder() -> Path:
@@ -94,6 +106,17 @@ def measure_all(data: Path, options: argparse.Namespace, measured: dict) -> Iter
     if bag.is_file() and not options.no_drives:
         say("bag: trace1")
         measured["trace1"]["trace1"] = trace1(bag, every)
+        yield
+
+
+def reproduce_all(options: argparse.Namespace, measured: dict) -> Iterator[None]:
+    """Fills `measured`; yields after each experiment."""
+    for name in options.papers:
+        say(f"reproduce {name}")
+        out = OUT / "reproduce" / name
+        out.mkdir(parents=True, exist_ok=True)
+        seeds = QUICK_SEEDS if options.quick else SEEDS
+        measured["papers"][name] = experiment(name).run(seed=SEED, seeds=seeds, out=out)
         yield
 
 
@@ -129,6 +152,8 @@ def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
     for name, targets in DRIVES.items():
         if measured[name]:
             parts[name] = table(target_table(targets, measured[name]))
+    for name, result in measured["papers"].items():
+        parts[f"reproduce_{name}"] = f"{run['date']}\n\n{table(experiment(name).table(result))}"
     for name, (date, rows) in suite_sections(OUT).items():
         parts[name] = f"{date[:10]}\n\n{table(rows)}"
     if GROWTH.is_file():
@@ -142,6 +167,9 @@ def print_tables(measured: dict) -> None:
         if measured[title]:
             header, *rows = target_table(targets, measured[title])
             print_table(([cell.replace("**", "") for cell in row] for row in rows), header)
+    for name, result in measured["papers"].items():
+        header, *rows = experiment(name).table(result)
+        print_table(rows, header)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -151,8 +179,8 @@ def main(arguments: list[str] | None = None) -> int:
     if not data.is_dir():
         say(f"{data}: no real data: set LANDFALL_DATA")
     OUT.mkdir(parents=True, exist_ok=True)
-    measured: dict = {"buildings": {}, **{name: {} for name in DRIVES}}
-    for _ in measure_all(data, options, measured):
+    measured: dict = {"buildings": {}, **{name: {} for name in DRIVES}, "papers": {}}
+    for _ in itertools.chain(measure_all(data, options, measured), reproduce_all(options, measured)):
         options.json.write_text(json.dumps({"run": run, **measured}) + "\n", encoding="utf-8")
     print_tables(measured)
     try:

@@ -6,6 +6,7 @@ import importlib
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import landfall
 import pytest
@@ -229,9 +230,30 @@ def report(module, monkeypatch, tmp_path):
 
 @pytest.mark.parametrize(("page", "drawn"), [("RESULTS.md", True), ("other.md", False)])
 def test_the_growth_picture_belongs_to_the_results_page(report, tmp_path, page, drawn):
-    assert report.main(["--results", str(tmp_path / page)]) == 0
+    assert report.main(["--papers", "", "--results", str(tmp_path / page)]) == 0
     assert "| floor 100x100 | 7.2e+06 | 180 | 100 |" in (tmp_path / page).read_text()
     assert (tmp_path / "growth.png").exists() == drawn
+
+
+def test_a_paper_has_its_part_of_the_page(report, tmp_path, monkeypatch):
+    asked = []
+
+    def run(**arguments):
+        asked.append(arguments)
+        return {"share": 0.5}
+
+    paper = SimpleNamespace(run=run, table=lambda result: [["", "share"], ["ours", str(result["share"])]])
+    monkeypatch.setattr(report, "experiment", lambda name: paper)
+    page = tmp_path / "page.md"
+    page.write_text(
+        "<!-- measured: growth -->\n<!-- end of growth -->\n"
+        "<!-- measured: reproduce_grid -->\n<!-- end of reproduce_grid -->\n"
+    )
+    assert report.main(["--papers", "grid", "--quick", "--results", str(page)]) == 0
+    assert "| ours | 0.5 |" in page.read_text()
+    assert asked == [{"seed": 1, "seeds": 2, "out": tmp_path / "reproduce" / "grid"}]
+    with pytest.raises(SystemExit):
+        report.main(["--papers", "nobody-1900"])
 
 
 def test_a_benchmark_that_failed_is_an_error(module, tmp_path):
