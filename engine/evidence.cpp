@@ -46,16 +46,4 @@ double elsewhere_weight(double share, double lead_nats) {
   return std::exp(std::min(most_nats, nats_per_share * (even_share - share) - nats_per_lead * lead));
 }
 
-double own_log_evidence(double share, double log_ranges) {
-  constexpr double nats_per_share = 30.0;
-  return nats_per_share * share + log_ranges;
-}
-
-double own_elsewhere_weight(double log_ranges, double lead_nats) {
-  constexpr double nats = 1.3;
-  constexpr double nats_per_nat = 0.4;
-  constexpr double longest_lead_nats = 8.0;
-  return std::exp(nats - nats_per_nat * log_ranges - std::min(longest_lead_nats, lead_nats));
-}
-
 }  // namespace landfall::internal

@@ -49,11 +49,8 @@ inline constexpr double explains_more_nats = 30.0;
 // matches less well, and others come close. lead_nats: what the best pose is ahead of the next.
 double elsewhere_weight(double share, double lead_nats);
 
-// The same for a method whose scores are its own: share is its score over that of a perfect fit, log_ranges
-// what ray casting says (verify.hpp). Chosen on simulated sonars in furnished rooms, of other seeds than
-// those reported.
-double own_log_evidence(double share, double log_ranges);
-double own_elsewhere_weight(double log_ranges, double lead_nats);
+// The same, beside all poses of the prior, where ranges are compared (range_posterior.hpp).
+inline constexpr double elsewhere_odds = 0.05;
 
 inline double share_of(std::int32_t score, std::size_t points) {
   return static_cast<double>(score) / (255.0 * static_cast<double>(points));

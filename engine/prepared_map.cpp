@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/distance_field.hpp"
+#include "engine/methods/grid/reduced.hpp"
 #include "engine/options.hpp"
 #include "engine/prepared_state.hpp"
 #include "engine/to_raycast.hpp"
@@ -58,6 +59,14 @@ const BoundTable& PreparedState::coarse_bound_table() const {
 const std::vector<std::int8_t>& PreparedState::global_grid(Contours contours) const {
   const auto& grid = contours == Contours::corrected ? corrected_grid_ : uncorrected_grid_;
   return grid.get([this, contours] { return internal::global_grid(grid_, contours); });
+}
+
+const std::vector<std::int8_t>& PreparedState::reduced_grid(int factor) const {
+  if (factor == 1) return global_grid(Contours::corrected);
+  const std::scoped_lock lock(reduced_mutex_);
+  std::vector<std::int8_t>& reduced = reduced_grids_[factor];
+  if (reduced.empty()) reduced = internal::global_grid(draw_reduced(grid_, factor), Contours::corrected);
+  return reduced;
 }
 
 std::shared_ptr<const MapSpectra> PreparedState::field_spectra(int reach_cells) const {
@@ -135,6 +144,8 @@ std::size_t PreparedState::memory_bytes() const {
   if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();
+  const std::scoped_lock reduced_lock(reduced_mutex_);
+  for (const auto& [factor, grid] : reduced_grids_) bytes += grid.capacity();
   const std::scoped_lock spectra_lock(spectra_mutex_);
   for (const auto& [reach, spectra] : spectra_) bytes += spectra->memory_bytes();
   const std::scoped_lock lock(masks_mutex_);

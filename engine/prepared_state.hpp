@@ -55,6 +55,8 @@ class PreparedState {
   [[nodiscard]] const BoundTable& coarse_bound_table() const;
   // Of method `grid`.
   [[nodiscard]] const std::vector<std::int8_t>& global_grid(Contours contours) const;
+  // The same, corrected, drawn in cells `factor` times as large (grid/reduced.hpp).
+  [[nodiscard]] const std::vector<std::int8_t>& reduced_grid(int factor) const;
   // The field's, for end points that are up to reach_cells away from the robot's cell along either axis.
   [[nodiscard]] std::shared_ptr<const MapSpectra> field_spectra(int reach_cells) const;
   [[nodiscard]] const WallMap& walls() const;
@@ -79,6 +81,8 @@ class PreparedState {
   Lazy<std::vector<std::int8_t>> uncorrected_grid_;
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
+  mutable std::mutex reduced_mutex_;
+  mutable std::map<int, std::vector<std::int8_t>> reduced_grids_;  // by factor
   mutable std::mutex spectra_mutex_;
   mutable std::map<int, std::shared_ptr<const MapSpectra>> spectra_;  // by reach
   mutable std::mutex masks_mutex_;

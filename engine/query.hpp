@@ -42,15 +42,19 @@ inline bool better(const Candidate& a, const Candidate& b) {
   return a.score != b.score ? a.score > b.score : a.pose < b.pose;
 }
 
+enum class Scores : std::uint8_t {
+  field,       // sums of the likelihood field: they say how likely a pose is
+  own,         // the method's: they propose poses, and ranges say how likely those are
+  own_decide,  // the same, but hypotheses are in the order of scores
+};
+
 struct Proposal {
   // The best pose of every block of 8 x 8 cells at every heading whose score is at least
   // lowest_rival(best score), best first: at most max_candidates. Empty: nothing scores.
   std::vector<Candidate> candidates;
   bool proven = false;
   SearchCounts counts;
-  // Of a method whose scores are its own: the score of a scan that the map fits in every cell. 0: scores are
-  // sums of the likelihood field.
-  double perfect_score = 0.0;
+  Scores scores = Scores::field;
   std::string way;  // which of its ways a method took, where it has several
 };
 

@@ -42,15 +42,10 @@ double missed_share(const Query& query) {
 
 }  // namespace
 
-Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most,
-                 double perfect_score) {
+Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most) {
   constexpr std::size_t most_counted = 64;
   const std::size_t points = query.points.size();
-  Modes found{.modes = {},
-              .log_rest = nothing,
-              .missed_share = missed_share(query),
-              .points = points,
-              .perfect_score = perfect_score};
+  Modes found{.modes = {}, .log_rest = nothing, .missed_share = missed_share(query), .points = points};
   std::vector<Pose2> T_map_mode;
   for (const Candidate& candidate : candidates) {
     const Pose2 T_map_robot = query.lattice.T_map_robot(candidate.pose);
@@ -62,18 +57,19 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
     if (known) continue;
     if (T_map_mode.size() >= most_counted) break;
     T_map_mode.push_back(T_map_robot);
-    const bool own = perfect_score > 0.0;
-    const double share = own ? candidate.score / perfect_score : share_of(candidate.score, points);
+    const double share = share_of(candidate.score, points);
     const double log_prior = query.domain.log_prior(query.lattice, candidate.pose);
     if (found.modes.size() < most) {
       found.modes.push_back({.best = candidate,
                              .log_prior = log_prior,
                              .share = share,
+                             .log_mass = 0.0,
+                             .T_map_mean = {},
                              .map_index = 0,
                              .verification = {},
                              .ways_to_settle = {},
                              .hypothesis = {}});
-    } else if (!own) {  // own scores weigh little without the ranges, which are known of the modes alone
+    } else {
       found.log_rest = log_add(found.log_rest, log_prior + log_evidence(share, points));
     }
   }
@@ -87,14 +83,13 @@ struct Ranked {
   double log_mass;  // prior x likelihood
 };
 
-double log_likelihood(const Modes& map, const Mode& mode) {
-  if (map.perfect_score > 0.0) return own_log_evidence(mode.share, mode.verification.log_ranges);
-  return log_evidence(mode.share + share_of_rays(mode.verification), map.points);
+double log_mass(const Modes& map, const Mode& mode) {
+  if (map.by_ranges) return mode.log_mass;
+  return mode.log_prior + log_evidence(mode.share + share_of_rays(mode.verification), map.points);
 }
 
 // What weighs beside the best pose that it is none.
 double elsewhere(const Modes& map, const Mode& best, double lead_nats) {
-  if (map.perfect_score > 0.0) return own_elsewhere_weight(best.verification.log_ranges, lead_nats);
   const double lattice_share = share_of(best.best.score, map.points);
   return elsewhere_weight(std::min(1.0, lattice_share + map.missed_share), lead_nats);
 }
@@ -107,14 +102,17 @@ std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
   std::vector<Ranked> all;
   for (const Modes& map : maps) {
     for (const Mode& mode : map.modes) {
-      double log_mass = mode.log_prior + log_likelihood(map, mode);
+      double weight = log_mass(map, mode);
       // A pose that would be lost by itself is no rival of one that explains the scan.
-      if (any_explains && mode.hypothesis.explained < least_explained) log_mass -= unexplained_nats;
-      all.push_back({mode, log_mass});
+      if (any_explains && !map.by_ranges && mode.hypothesis.explained < least_explained)
+        weight -= unexplained_nats;
+      all.push_back({mode, weight});
     }
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Ranked& a, const Ranked& b) { return a.log_mass > b.log_mass; });
+  const bool as_they_come = maps.size() == 1 && maps.front().in_order;
+  if (!as_they_come)
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.log_mass > b.log_mass; });
   return all;
 }
 
@@ -140,6 +138,13 @@ double log_total(const std::vector<Modes>& maps, const std::vector<Ranked>& all)
                  best.log_mass + std::log(unseen_weight + elsewhere(maps.front(), best.mode, lead_nats)));
 }
 
+// The same by ranges: the posterior knows all the poses that it compared.
+double log_total_by_ranges(const std::vector<Modes>& maps, const Ranked& best) {
+  double total = maps.front().log_elsewhere + std::log(elsewhere_odds);
+  for (const Modes& map : maps) total = log_add(total, map.log_all);
+  return log_add(total, best.log_mass + std::log(unseen_weight));
+}
+
 void decide(SearchResult& result) {
   constexpr double sure = 0.95;
   if (result.hypotheses.empty()) {
@@ -159,9 +164,9 @@ void decide(SearchResult& result) {
 void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result) {
   std::vector<Ranked> all = in_order(maps);
   if (!all.empty()) {
-    const bool own = maps.front().perfect_score > 0.0;
-    if (!own) weigh_disagreement(all);
-    const double total = log_total(maps, all);
+    const bool by_ranges = maps.front().by_ranges;
+    if (!by_ranges) weigh_disagreement(all);
+    const double total = by_ranges ? log_total_by_ranges(maps, all.front()) : log_total(maps, all);
     if (all.size() > static_cast<std::size_t>(max_hypotheses))
       all.resize(static_cast<std::size_t>(max_hypotheses));
     for (Ranked& one : all) {

@@ -16,8 +16,9 @@ inline constexpr double least_explained = 0.5;
 struct Mode {
   Candidate best;
   double log_prior = 0.0;
-  double share =
-      0.0;  // of the best imaginable score, at the refined pose; of the method's own: at the lattice's
+  double share = 0.0;     // of the best imaginable score, at the refined pose
+  double log_mass = 0.0;  // prior x likelihood, of modes by ranges
+  Pose2 T_map_mean;       // over that mass
   int map_index = 0;
   Verification verification;
   std::vector<std::vector<Pose2>> ways_to_settle;  // of a composite whose relative poses may be off
@@ -30,13 +31,15 @@ struct Modes {
   double log_rest = 0.0;      // mass of the modes beyond the last one: prior x likelihood
   double missed_share = 0.0;  // that a coarse lattice hides of the best pose's share
   std::size_t points = 0;
-  double perfect_score = 0.0;  // of a method's own scores; 0: they are the field's, see Proposal
+  bool by_ranges = false;      // modes weigh what range_posterior.hpp says, not what their scores do
+  bool in_order = false;       // whatever they weigh, the first is the answer
+  double log_all = 0.0;        // by ranges: of all poses of the prior
+  double log_elsewhere = 0.0;  // by ranges: likelihood of the scan from a place off the map
 };
 
 // Greedy: the best candidate is a mode, and so is each next one that is not within both distances of one
-// before it. The first `most` are kept. perfect_score: see Proposal.
-Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most,
-                 double perfect_score = 0.0);
+// before it. The first `most` are kept. Of scores that are the field's.
+Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most);
 
 // Verified modes of all maps -> hypotheses in order, probabilities, verdict.
 void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result);

@@ -10,6 +10,7 @@
 #include "engine/methods/table.hpp"
 #include "engine/options.hpp"
 #include "engine/parallel.hpp"
+#include "engine/range_posterior.hpp"
 #include "engine/rank.hpp"
 #include "engine/refine.hpp"
 #include "engine/settle.hpp"
@@ -77,7 +78,6 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.refine_ms);
   std::optional<SettleProblem> problem;
   if (query.scan.parts) problem.emplace(query.map, query.scan);
-  const bool own = found.perfect_score > 0.0;
   // The field is polished along the beams' axes, where a cone's echo need not be.
   const std::vector<Beam>& beams = query.scan.sensor->beams;
   const bool cones =
@@ -88,21 +88,20 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
     hypothesis.score = mode.best.score;
     hypothesis.T_map_robot_unrefined = query.lattice.T_map_robot(mode.best.pose);
     const Refined refined = refine(query.map, query.points, query.lattice, hypothesis.T_map_robot_unrefined);
-    hypothesis.T_map_robot = own && cones ? hypothesis.T_map_robot_unrefined : refined.T_map_robot;
+    hypothesis.T_map_robot = found.by_ranges && cones ? mode.T_map_mean : refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
-    if (!own) mode.share = refined.share;
+    mode.share = refined.share;
     if (problem) mode.ways_to_settle = settle(*problem, hypothesis.T_map_robot);
   });
 }
 
 // The way to settle that the map explains more of; the first where it is the same.
-void verify_settled(const Query& query, RangeLikelihood range_likelihood, Mode& mode) {
+void verify_settled(const Query& query, Mode& mode) {
   mode.verification.explained = -1.0;
   for (const std::vector<Pose2>& T_map_part : mode.ways_to_settle) {
     const Pose2& T_map_robot = T_map_part[query.scan.parts->reference];
     const Verification verification =
-        verify(query.map, remount(query.scan, T_map_part), std::span(&T_map_robot, 1), range_likelihood)
-            .front();
+        verify(query.map, remount(query.scan, T_map_part), std::span(&T_map_robot, 1)).front();
     if (verification.explained <= mode.verification.explained) continue;
     mode.verification = verification;
     mode.hypothesis.T_map_robot = T_map_robot;
@@ -111,15 +110,13 @@ void verify_settled(const Query& query, RangeLikelihood range_likelihood, Mode& 
 
 void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.verify_ms);
-  const RangeLikelihood range_likelihood =
-      found.perfect_score > 0.0 ? RangeLikelihood::computed : RangeLikelihood::left_out;
   if (query.scan.parts) {
     parallel_for(found.modes.size(), query.threads,
-                 [&](std::size_t i) { verify_settled(query, range_likelihood, found.modes[i]); });
+                 [&](std::size_t i) { verify_settled(query, found.modes[i]); });
   } else {
     std::vector<Pose2> T_map_robot;
     for (const Mode& mode : found.modes) T_map_robot.push_back(mode.hypothesis.T_map_robot);
-    const std::vector<Verification> verified = verify(query.map, query.scan, T_map_robot, range_likelihood);
+    const std::vector<Verification> verified = verify(query.map, query.scan, T_map_robot);
     for (std::size_t i = 0; i < verified.size(); ++i) found.modes[i].verification = verified[i];
   }
   for (Mode& mode : found.modes) mode.hypothesis.explained = mode.verification.explained;
@@ -130,9 +127,9 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
   const Proposal proposal = propose(query, method, result);
   Modes modes = [&] {
     const StageTimer timer(result.times.rank_ms);
-    return find_modes(query, proposal.candidates,
-                      static_cast<std::size_t>(std::max(query.options.max_hypotheses, least_modes)),
-                      proposal.perfect_score);
+    const auto most = static_cast<std::size_t>(std::max(query.options.max_hypotheses, least_modes));
+    return proposal.scores != Scores::field ? find_modes_by_ranges(query, proposal, most)
+                                            : find_modes(query, proposal.candidates, most);
   }();
   refine_modes(query, modes, result);
   verify_modes(query, modes, result);
@@ -143,7 +140,7 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
 // not may score less. Looked for where that is cheap: with so wide a margin bounds exclude little.
 bool deserves_second_look(const Query& query, const Modes& modes) {
   constexpr std::int64_t most_poses = 100'000'000;
-  if (modes.perfect_score > 0.0) return false;  // of other scores the margin is the method's
+  if (modes.by_ranges) return false;  // of other scores the margin is the method's
   if (query.domain.poses > most_poses || query.out_of_time()) return false;
   return !modes.modes.empty() && std::none_of(modes.modes.begin(), modes.modes.end(), [](const Mode& mode) {
     return mode.hypothesis.explained >= least_explained;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "engine/to_raycast.hpp"
 #include "engine/wall_depth.hpp"
@@ -19,8 +18,6 @@ struct ValidBeam {
   float range_m;
   bool echo;
   float tolerance_m;
-  float sigma_m;  // of the range, the lattice's steps included
-  float range_max_m;
   bool next_is_neighbour;  // the beam after it, in the list of valid beams
 };
 
@@ -43,8 +40,6 @@ std::vector<ValidBeam> valid_beams(const Scan& scan, double resolution_m) {
                      .range_m = scan.ranges_m[b],
                      .echo = reading == Reading::echo,
                      .tolerance_m = static_cast<float>(3.0 * noise_m + 2.0 * resolution_m),
-                     .sigma_m = static_cast<float>(std::hypot(noise_m, 0.7 * resolution_m)),
-                     .range_max_m = static_cast<float>(sensor.beams[b].range_max_m),
                      .next_is_neighbour = false});
   }
   return beams;
@@ -63,25 +58,6 @@ float mismatch_m(const ValidBeam& beam, const std::array<float, 3>& simulated_m)
     if (std::abs(off) <= std::abs(least)) least = off;
   }
   return least;
-}
-
-// Of a beam whose range is off by so much, over that of one which is not.
-double log_range(const ValidBeam& beam, float off_m) {
-  constexpr double anything = 0.2;
-  const double perfect = (1.0 - anything) / (beam.sigma_m * std::sqrt(2.0 * std::numbers::pi));
-  const double sigmas = off_m / beam.sigma_m;
-  return std::log(std::exp(-0.5 * sigmas * sigmas) + anything / beam.range_max_m / perfect);
-}
-
-double log_ranges(const std::vector<ValidBeam>& valid, std::span<const float> simulated_m) {
-  constexpr double per_beam = 0.5;
-  constexpr double most_independent = 20.0;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < valid.size(); ++i) {
-    const float limit_m = valid[i].range_max_m;
-    sum += log_range(valid[i], std::min(valid[i].range_m, limit_m) - std::min(simulated_m[i], limit_m));
-  }
-  return per_beam * std::min(1.0, most_independent / static_cast<double>(valid.size())) * sum;
 }
 
 // An echo behind the wall's face, but not behind the wall.
@@ -111,14 +87,13 @@ Verification judge(const PreparedState& map, const Sensor& sensor, const Pose2& 
   const auto count = static_cast<double>(valid.size());
   return {.explained = sums.explained / count,
           .blocked = sums.blocked / count,
-          .seen_through = sums.seen_through / count,
-          .log_ranges = 0.0};
+          .seen_through = sums.seen_through / count};
 }
 
 }  // namespace
 
 std::vector<Verification> verify(const PreparedState& map, const Scan& scan,
-                                 std::span<const Pose2> T_map_robot, RangeLikelihood range_likelihood) {
+                                 std::span<const Pose2> T_map_robot) {
   const std::vector<ValidBeam> valid = valid_beams(scan, map.grid().resolution_m);
   std::vector<Verification> answers(T_map_robot.size());
   if (valid.empty() || T_map_robot.empty()) return answers;
@@ -134,7 +109,6 @@ std::vector<Verification> verify(const PreparedState& map, const Scan& scan,
   for (std::size_t p = 0; p < poses.size(); ++p) {
     const auto of_pose = std::span<const float>(simulated_m).subspan(p * beams.size(), beams.size());
     answers[p] = judge(map, *scan.sensor, T_map_robot[p], valid, of_pose);
-    if (range_likelihood == RangeLikelihood::computed) answers[p].log_ranges = log_ranges(valid, of_pose);
   }
   return answers;
 }

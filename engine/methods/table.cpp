@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view default_method = "branch_and_bound";
 
-constexpr std::array<Method, 6> table{{
+constexpr std::array<Method, 8> table{{
     {.info = {.name = "exhaustive",
               .summary = "scores every pose of the prior's lattice; the oracle",
               .source = ""},
@@ -25,13 +25,23 @@ constexpr std::array<Method, 6> table{{
               .source = "Courcelle & Horn 1999"},
      .propose = propose_grid,
      .centers_headings = true},
+    {.info = {.name = "grid_published",
+              .summary = "grid's best score alone, as published: ranges decide nothing but the probability",
+              .source = "Courcelle & Horn 1999"},
+     .propose = propose_grid_published,
+     .centers_headings = true},
+    {.info = {.name = "grid_reduced",
+              .summary = "grid by a pyramid of reduced grids, from the coarsest to the finest",
+              .source = "Courcelle & Horn 1999"},
+     .propose = propose_grid_reduced,
+     .centers_headings = true},
     {.info = {.name = "grid_uncorrected",
-              .summary = "grid without the correction of contours, for comparison",
+              .summary = "grid_published without the correction of contours, for comparison",
               .source = "Courcelle & Horn 1999"},
      .propose = propose_grid_uncorrected,
      .centers_headings = true},
     {.info = {.name = "grid_turned",
-              .summary = "grid with one local grid whose raster is turned, for comparison",
+              .summary = "grid_published with one local grid whose raster is turned, for comparison",
               .source = "Courcelle & Horn 1999"},
      .propose = propose_grid_turned,
      .centers_headings = true},

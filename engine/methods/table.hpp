@@ -21,6 +21,8 @@ const Method& find_method(std::string_view name);
 Proposal propose_exhaustive(const Query& query);
 Proposal propose_branch_and_bound(const Query& query);
 Proposal propose_grid(const Query& query);
+Proposal propose_grid_published(const Query& query);
+Proposal propose_grid_reduced(const Query& query);
 Proposal propose_grid_uncorrected(const Query& query);
 Proposal propose_grid_turned(const Query& query);
 Proposal propose_fft(const Query& query);

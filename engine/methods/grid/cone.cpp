@@ -8,8 +8,6 @@
 namespace landfall::internal {
 namespace {
 
-constexpr double behind_face_cells = 0.5;
-
 CellIndex cell_at(double x_cells, double y_cells) {
   return {.col = static_cast<int>(std::floor(x_cells + 0.5)),
           .row = static_cast<int>(std::floor(y_cells + 0.5))};
@@ -119,7 +117,7 @@ void arc_cells(const Cone& cone, std::vector<CellIndex>& cells) {
   constexpr double spacing_cells = 0.2;
   cells.clear();
   if (!cone.echo) return;
-  const double radius = cone.range_cells + behind_face_cells;
+  const double radius = cone.range_cells + cone.behind_face_cells;
   const int steps = static_cast<int>(std::ceil(2.0 * cone.half_angle_rad * radius / spacing_cells));
   const double first_rad = cone.axis_rad - cone.half_angle_rad;
   const double step_rad = steps == 0 ? 0.0 : 2.0 * cone.half_angle_rad / steps;

@@ -20,6 +20,7 @@ struct Cone {
   double half_angle_rad = 0.0;
   double range_cells = 0.0;  // to the face of the obstacle; without echo, as far as the beam sees
   bool echo = false;
+  double behind_face_cells = 0.5;  // where the arc lies: in the middle of the obstacle's cell
 };
 
 // A cone for every valid beam. Left out are echoes farther than farthest_cells; beams without echo end there.

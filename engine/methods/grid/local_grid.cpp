@@ -10,6 +10,8 @@ namespace {
 
 enum Mark : std::uint8_t { seen_through = 1, in_arc = 2, is_touched = 4 };
 
+// Memory of a local grid ends here: 100 m in cells of 5 cm.
+constexpr double farthest_local_cells = 2000.0;
 constexpr double unsure_cells = 2.0;  // before a sector's end
 
 }  // namespace
@@ -26,6 +28,15 @@ std::int32_t LocalModel::arc_weight() const {
   constexpr std::int32_t most = 1 << 30;  // arcs, sectors and the robot together
   const auto arcs = static_cast<std::int32_t>(std::max<std::size_t>(1, 3 * cones.size()));
   return std::clamp(most / arcs, 1, finest);
+}
+
+LocalModel make_local_model(const Scan& scan, const Lattice& lattice, double robot_radius_m, int factor) {
+  const double farthest =
+      std::min(farthest_local_cells, std::hypot(lattice.width_cells, lattice.height_cells) + 1.0);
+  LocalModel model{.cones = make_cones(scan, lattice.resolution_m, farthest),
+                   .robot_radius_cells = std::min(farthest, robot_radius_m / lattice.resolution_m)};
+  for (Cone& cone : model.cones) cone.behind_face_cells /= factor;
+  return model;
 }
 
 LocalGridPainter::LocalGridPainter(const LocalModel& model)

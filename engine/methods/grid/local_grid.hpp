@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/lattice.hpp"
 #include "engine/methods/grid/cone.hpp"
 
 namespace landfall::internal {
@@ -25,6 +26,9 @@ struct LocalModel {
   // scores stay within 30 bits.
   [[nodiscard]] std::int32_t arc_weight() const;
 };
+
+// The lattice's cells are `factor` times as large as the map's, which an arc lies behind the face in.
+LocalModel make_local_model(const Scan& scan, const Lattice& lattice, double robot_radius_m, int factor = 1);
 
 // Draws local grids of a model. Keeps its memory from one heading to the next: one per thread.
 //
