@@ -261,6 +261,11 @@ LANDFALL_API landfall_status landfall_prior_mixture(const landfall_prior* const*
 /* A prior as JSON. */
 LANDFALL_API landfall_status landfall_prior_load(const char* path, landfall_prior** prior);
 
+/* A place by its name, of a file of named places (yaml: a polygon, or a pose and its spread, for each name).
+ * A name that the file does not have is LANDFALL_UNKNOWN_NAME; the message lists those that it has. */
+LANDFALL_API landfall_status landfall_prior_place(const char* places_path, const char* name,
+                                                  landfall_prior** prior);
+
 LANDFALL_API void landfall_prior_free(landfall_prior* prior);
 
 /* ---- Search

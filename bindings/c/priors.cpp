@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "bindings/c/handles.hpp"
+#include "landfall/error.hpp"
 #include "landfall/io.hpp"
 
 namespace {
@@ -15,6 +18,14 @@ void give(landfall_prior** prior, landfall::PosePrior made) {
   auto*& handle = required(prior, "prior");
   validate(made);
   handle = new landfall_prior{std::move(made)};
+}
+
+[[noreturn]] void fail_unknown_place(const std::string& path, const std::string& name,
+                                     const std::map<std::string, landfall::PosePrior>& places) {
+  std::string known;
+  for (const auto& [other, prior] : places) known += (known.empty() ? "" : ", ") + other;
+  throw landfall::Error(landfall::ErrorCode::unknown_name,
+                        path + ": no place \"" + name + "\", expected one of " + known);
 }
 
 }  // namespace
@@ -84,6 +95,17 @@ landfall_status landfall_prior_mixture(const landfall_prior* const* components, 
 
 landfall_status landfall_prior_load(const char* path, landfall_prior** prior) {
   return guarded(__func__, [&] { give(prior, landfall::load_prior(&required(path, "path"))); });
+}
+
+landfall_status landfall_prior_place(const char* places_path, const char* name, landfall_prior** prior) {
+  return guarded(__func__, [&] {
+    const std::string path = &required(places_path, "places_path");
+    const std::string wanted = &required(name, "name");
+    const auto places = landfall::load_places(path);
+    const auto place = places.find(wanted);
+    if (place == places.end()) fail_unknown_place(path, wanted, places);
+    give(prior, place->second);
+  });
 }
 
 void landfall_prior_free(landfall_prior* prior) {

@@ -85,6 +85,21 @@ static void prior_from_file(void) {
   landfall_prior_free(prior);
 }
 
+static void prior_of_a_named_place(void) {
+  FILE* file = fopen("c_room.places.yaml", "w");
+  CHECK(file != NULL);
+  CHECK(fputs("door: {T_map_robot: [1, 2, 0], half_x_m: 0.5, half_y_m: 0.5, half_theta_rad: 1}\n", file) >=
+        0);
+  CHECK(fclose(file) == 0);
+  landfall_prior* prior = NULL;
+  CHECK_OK(landfall_prior_place("c_room.places.yaml", "door", &prior));
+  landfall_prior_free(prior);
+  prior = NULL;
+  CHECK(landfall_prior_place("c_room.places.yaml", "kitchen", &prior) == LANDFALL_UNKNOWN_NAME);
+  CHECK(prior == NULL);
+  CHECK(strstr(landfall_last_error(), "door") != NULL);
+}
+
 int main(void) {
   map_round_trip();
   landfall_map* map = make_room();
@@ -93,6 +108,7 @@ int main(void) {
   log_round_trip(drive);
   merge_and_search(map, drive);
   prior_from_file();
+  prior_of_a_named_place();
   landfall_scans_free(drive);
   landfall_sensor_free(scanner);
   landfall_map_free(map);
