@@ -60,6 +60,8 @@ class PreparedState {
   // The field's, for end points that are up to reach_cells away from the robot's cell along either axis.
   [[nodiscard]] std::shared_ptr<const MapSpectra> field_spectra(int reach_cells) const;
   [[nodiscard]] const WallMap& walls() const;
+  // Made from a floor plan, whose walls are exact.
+  [[nodiscard]] bool is_plan() const { return plan_.has_value(); }
   // The map, in its own frame, ready for rays: a plan by its walls, a grid in the way that is the fastest.
   [[nodiscard]] const raycast::Scene& scene() const;
   // Cells where a robot of this radius may stand, on every step_cells-th column and row.

@@ -48,6 +48,12 @@ enum class Scores : std::uint8_t {
   own_decide,  // the same, but hypotheses are in the order of scores
 };
 
+// A candidate of a method that is not bound to the lattice.
+struct FreeCandidate {
+  Pose2 T_map_robot;
+  std::int64_t score = 0;  // the method's own, shown to users
+};
+
 struct Proposal {
   // The best pose of every block of 8 x 8 cells at every heading whose score is at least
   // lowest_rival(best score), best first: at most max_candidates. Empty: nothing scores.
@@ -55,6 +61,9 @@ struct Proposal {
   bool proven = false;
   SearchCounts counts;
   Scores scores = Scores::field;
+  // Of a method that is not bound to the lattice, one for each of the candidates, which are then the lattice
+  // poses nearest to them, scored by the field. Empty: candidates are lattice poses.
+  std::vector<FreeCandidate> free_candidates;
   std::string way;  // which of its ways a method took, where it has several
 };
 

@@ -42,13 +42,17 @@ double missed_share(const Query& query) {
 
 }  // namespace
 
-Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most) {
+Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most,
+                 std::span<const FreeCandidate> free_candidates) {
   constexpr std::size_t most_counted = 64;
   const std::size_t points = query.points.size();
   Modes found{.modes = {}, .log_rest = nothing, .missed_share = missed_share(query), .points = points};
   std::vector<Pose2> T_map_mode;
-  for (const Candidate& candidate : candidates) {
-    const Pose2 T_map_robot = query.lattice.T_map_robot(candidate.pose);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& candidate = candidates[i];
+    const std::optional<FreeCandidate> free =
+        free_candidates.empty() ? std::nullopt : std::optional(free_candidates[i]);
+    const Pose2 T_map_robot = free ? free->T_map_robot : query.lattice.T_map_robot(candidate.pose);
     const bool known = std::any_of(T_map_mode.begin(), T_map_mode.end(), [&](const Pose2& T_map_other) {
       return translation_distance(T_map_other, T_map_robot) < query.options.distinct_translation_m &&
              angle_distance(T_map_other.theta_rad, T_map_robot.theta_rad) <
@@ -61,6 +65,7 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
     const double log_prior = query.domain.log_prior(query.lattice, candidate.pose);
     if (found.modes.size() < most) {
       found.modes.push_back({.best = candidate,
+                             .free = free,
                              .log_prior = log_prior,
                              .share = share,
                              .log_mass = 0.0,

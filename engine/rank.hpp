@@ -1,6 +1,8 @@
 // Distinct modes in order, what they share of the posterior, and the verdict.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/query.hpp"
@@ -15,6 +17,7 @@ inline constexpr double least_explained = 0.5;
 // the mass: sums over the lattice favoured blurred matches over sharp ones (intel: five queries of 455).
 struct Mode {
   Candidate best;
+  std::optional<FreeCandidate> free;  // the method's own pose, where it is not the lattice's
   double log_prior = 0.0;
   double share = 0.0;     // of the best imaginable score, at the refined pose
   double log_mass = 0.0;  // prior x likelihood, of modes by ranges
@@ -38,8 +41,9 @@ struct Modes {
 };
 
 // Greedy: the best candidate is a mode, and so is each next one that is not within both distances of one
-// before it. The first `most` are kept. Of scores that are the field's.
-Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most);
+// before it. The first `most` are kept. Of scores that are the field's; free_candidates: see Proposal.
+Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most,
+                 std::span<const FreeCandidate> free_candidates = {});
 
 // Verified modes of all maps -> hypotheses in order, probabilities, verdict.
 void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result);

@@ -13,6 +13,7 @@
 #include "engine/range_posterior.hpp"
 #include "engine/rank.hpp"
 #include "engine/refine.hpp"
+#include "engine/refine_by_ranges.hpp"
 #include "engine/settle.hpp"
 #include "engine/verify.hpp"
 #include "kernels/isa.hpp"
@@ -70,11 +71,12 @@ Proposal propose(const Query& query, const Method& method, SearchResult& result)
   result.proven = result.proven && proposal.proven;
   result.counts.poses_scored += proposal.counts.poses_scored;
   result.counts.bounds_computed += proposal.counts.bounds_computed;
+  result.counts.rays_cast += proposal.counts.rays_cast;
   name_way(proposal.way, result);
   return proposal;
 }
 
-void refine_modes(const Query& query, Modes& found, SearchResult& result) {
+void refine_modes(const Query& query, const Method& method, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.refine_ms);
   std::optional<SettleProblem> problem;
   if (query.scan.parts) problem.emplace(query.map, query.scan);
@@ -85,12 +87,18 @@ void refine_modes(const Query& query, Modes& found, SearchResult& result) {
   parallel_for(found.modes.size(), query.threads, [&](std::size_t i) {
     Mode& mode = found.modes[i];
     Hypothesis& hypothesis = mode.hypothesis;
-    hypothesis.score = mode.best.score;
-    hypothesis.T_map_robot_unrefined = query.lattice.T_map_robot(mode.best.pose);
+    hypothesis.score = mode.free ? mode.free->score : mode.best.score;
+    hypothesis.T_map_robot_unrefined =
+        mode.free ? mode.free->T_map_robot : query.lattice.T_map_robot(mode.best.pose);
     const Refined refined = refine(query.map, query.points, query.lattice, hypothesis.T_map_robot_unrefined);
     hypothesis.T_map_robot = found.by_ranges && cones ? mode.T_map_mean : refined.T_map_robot;
     hypothesis.covariance = refined.covariance;
     mode.share = refined.share;
+    if (method.refines_by_ranges && query.map.is_plan()) {
+      const RefinedByRanges exact = refine_by_ranges(query.map, query.scan, hypothesis.T_map_robot_unrefined);
+      hypothesis.T_map_robot = exact.T_map_robot;
+      hypothesis.covariance = exact.covariance;
+    }
     if (problem) mode.ways_to_settle = settle(*problem, hypothesis.T_map_robot);
   });
 }
@@ -128,19 +136,21 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
   Modes modes = [&] {
     const StageTimer timer(result.times.rank_ms);
     const auto most = static_cast<std::size_t>(std::max(query.options.max_hypotheses, least_modes));
-    return proposal.scores != Scores::field ? find_modes_by_ranges(query, proposal, most)
-                                            : find_modes(query, proposal.candidates, most);
+    return proposal.scores != Scores::field
+               ? find_modes_by_ranges(query, proposal, most)
+               : find_modes(query, proposal.candidates, most, proposal.free_candidates);
   }();
-  refine_modes(query, modes, result);
+  refine_modes(query, method, modes, result);
   verify_modes(query, modes, result);
   return modes;
 }
 
 // The field does not know what stands between: where every pose found sees through walls, one that does
 // not may score less. Looked for where that is cheap: with so wide a margin bounds exclude little.
-bool deserves_second_look(const Query& query, const Modes& modes) {
+bool deserves_second_look(const Query& query, const Method& method, const Modes& modes) {
   constexpr std::int64_t most_poses = 100'000'000;
   if (modes.by_ranges) return false;  // of other scores the margin is the method's
+  if (!method.looks_within_margin) return false;
   if (query.domain.poses > most_poses || query.out_of_time()) return false;
   return !modes.modes.empty() && std::none_of(modes.modes.begin(), modes.modes.end(), [](const Mode& mode) {
     return mode.hypothesis.explained >= least_explained;
@@ -185,7 +195,7 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
       query.deadline = start + std::chrono::duration_cast<Clock::duration>(
                                    std::chrono::duration<double>(options.time_budget_s));
     Modes modes = examine(query, method, result);
-    if (deserves_second_look(query, modes)) {
+    if (deserves_second_look(query, method, modes)) {
       query.margin = second_margin(points.size());
       modes = examine(query, method, result);
     }

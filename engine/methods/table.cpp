@@ -49,6 +49,18 @@ constexpr std::array<Method, 8> table{{
               .summary = "all translations at once by FFT, per heading; point by point where that is less",
               .source = "Espino, Moreno, Curto, Aguilar"},
      .propose = propose_fft},
+    {.info = {.name = "sdn",
+              .summary = "stochastic diffusion network, tested by ray casts: rooms; see fsdn",
+              .source = "Beattie & Bishop"},
+     .propose = propose_sdn,
+     .looks_within_margin = false,
+     .refines_by_ranges = true},
+    {.info = {.name = "fsdn",
+              .summary = "focused stochastic diffusion network, tested by ray casts: plans, to a centimetre",
+              .source = "Beattie & Bishop"},
+     .propose = propose_fsdn,
+     .looks_within_margin = false,
+     .refines_by_ranges = true},
 }};
 
 }  // namespace

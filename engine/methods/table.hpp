@@ -12,6 +12,8 @@ struct Method {
   MethodInfo info;
   Proposal (*propose)(const Query& query);
   bool centers_headings = false;  // on the prior
+  bool looks_within_margin = true;  // a wider margin of the query lets it find more
+  bool refines_by_ranges = false;  // where the map's walls are exact
 };
 
 std::span<const Method> method_table();
@@ -26,5 +28,7 @@ Proposal propose_grid_reduced(const Query& query);
 Proposal propose_grid_uncorrected(const Query& query);
 Proposal propose_grid_turned(const Query& query);
 Proposal propose_fft(const Query& query);
+Proposal propose_sdn(const Query& query);
+Proposal propose_fsdn(const Query& query);
 
 }  // namespace landfall::internal

@@ -1,0 +1,54 @@
+#include "engine/methods/sdn/cells.hpp"
+
+namespace landfall::internal {
+namespace {
+
+// One in two regions is the middle of the one above: a copied mapping that is right is right all the way
+// down.
+constexpr std::uint32_t ways_to_move = 2;
+
+double between_plus_minus(double half, CounterRng& rng) {
+  return half * (2.0 * rng.uniform() - 1.0);
+}
+
+Pose2 moved_within(const Pose2& pose, const FocusLevel& box, CounterRng& rng) {
+  const double x_m = pose.x_m + between_plus_minus(box.half_m, rng);
+  const double y_m = pose.y_m + between_plus_minus(box.half_m, rng);
+  return {x_m, y_m, wrap_angle(pose.theta_rad + between_plus_minus(box.half_rad, rng))};
+}
+
+}  // namespace
+
+Cells::Cells(std::size_t count, std::span<const FocusLevel> levels)
+    : levels_(levels), level_(count), path_(count * levels.size()), mappings_(count), next_(count) {}
+
+void Cells::place(std::size_t cell, const Pose2& T_map_robot) {
+  level_[cell] = 0;
+  path_[index(cell)] = T_map_robot;
+}
+
+void Cells::copy(std::size_t cell, const Pose2& T_map_robot, CounterRng& rng) {
+  place(cell, rng.below(ways_to_move) == 0 ? T_map_robot : moved_within(T_map_robot, levels_.front(), rng));
+}
+
+void Cells::pass(std::size_t cell, CounterRng& rng) {
+  const bool focused = level_[cell] == finest();
+  next_[cell] = {.T_map_robot = T_map_robot(cell), .active = true, .focused = focused};
+  if (focused) return;
+  Pose2 T_map_part = T_map_robot(cell);
+  if (rng.below(ways_to_move) != 0) {
+    const FocusLevel& here = levels_[level_[cell]];
+    const FocusLevel& below = levels_[level_[cell] + 1U];
+    T_map_part = moved_within(T_map_part, {.half_m = here.half_m - below.half_m, .half_rad = here.half_rad - below.half_rad}, rng);
+  }
+  ++level_[cell];
+  path_[index(cell)] = T_map_part;
+}
+
+void Cells::fail(std::size_t cell) {
+  const bool active = level_[cell] > 0;
+  if (active) --level_[cell];
+  next_[cell] = {.T_map_robot = T_map_robot(cell), .active = active};
+}
+
+}  // namespace landfall::internal

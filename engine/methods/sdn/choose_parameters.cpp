@@ -1,0 +1,46 @@
+#include "engine/methods/sdn/choose_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/methods/sdn/find_modes_by_diffusion.hpp"
+
+namespace landfall::internal {
+namespace {
+
+constexpr FocusLevel default_top{.half_m = 0.3, .half_rad = 0.0872664626};  // 5 degrees
+
+}  // namespace
+
+double volume_of(const FocusLevel& level) {
+  return 8.0 * level.half_m * level.half_m * level.half_rad;
+}
+
+std::vector<FocusLevel> make_levels(const PoseSampler& sampler, const DiffusionSettings& settings) {
+  if (!settings.focused) return {finest_level};
+  const FocusLevel top = settings.top.half_m > 0.0 ? settings.top : default_top;
+  return make_focus_levels({.half_m = std::min(top.half_m, sampler.half_extent_m()),
+                            .half_rad = std::min(top.half_rad, sampler.half_extent_rad())});
+}
+
+double map_noise_m(const PreparedState& map) {
+  return map.is_plan() ? 0.0 : map.grid().resolution_m;
+}
+
+std::size_t choose_cells(double regions) {
+  return static_cast<std::size_t>(std::clamp(4.0 * std::sqrt(regions), 64.0, 4096.0));
+}
+
+RunLimits choose_limits(double regions, std::size_t cells, bool rival) {
+  constexpr double draws_per_region = 8.0;
+  constexpr double rival_draws_per_region = 3.0;
+  constexpr double iterations_per_draw = 20.0;
+  constexpr double fewest_iterations = 100.0;
+  const double draws = (rival ? rival_draws_per_region : draws_per_region) * regions;
+  const auto count = static_cast<double>(cells);
+  return {.draws = static_cast<std::int64_t>(draws + 10.0 * count),
+          .iterations = static_cast<std::uint32_t>(
+              std::min(4e9, fewest_iterations + iterations_per_draw * draws / count))};
+}
+
+}  // namespace landfall::internal

@@ -1,0 +1,100 @@
+#include "engine/methods/sdn/network.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "engine/methods/sdn/processor_time.hpp"
+#include "engine/parallel.hpp"
+
+namespace landfall::internal {
+namespace {
+
+constexpr std::size_t chunk_cells = TestRays::most_tests;
+
+}  // namespace
+
+bool Excluded::contains(const Pose2& T_map_robot) const {
+  return std::any_of(T_map_mode.begin(), T_map_mode.end(), [&](const Pose2& T_map_one) {
+    return std::abs(T_map_one.x_m - T_map_robot.x_m) <= reach.half_m &&
+           std::abs(T_map_one.y_m - T_map_robot.y_m) <= reach.half_m &&
+           angle_distance(T_map_one.theta_rad, T_map_robot.theta_rad) <= reach.half_rad;
+  });
+}
+
+void NetworkCounts::add(const NetworkCounts& other) {
+  draws += other.draws;
+  copies += other.copies;
+  tests += other.tests;
+  focused += other.focused;
+  cast_ms += other.cast_ms;
+}
+
+Network::Network(const SearchSpace& space, const Excluded& excluded, const NetworkOptions& options)
+    : space_(space), excluded_(excluded), options_(options), cells_(options.cells, space.levels) {}
+
+// 2, diffusion: an inactive cell polls another one at random, copies its mapping where that is active, and
+// else draws a new one. Initialisation is a draw for every cell.
+void Network::diffuse(std::size_t cell, CounterRng& rng, NetworkCounts& counts) {
+  if (iteration_ > 0) {
+    if (cells_.mapping(cell).active) return;
+    const auto others = static_cast<std::uint32_t>(cells_.size() - 1);
+    const std::uint32_t other = others == 0 ? 0 : rng.below(others);
+    const Mapping& polled = cells_.mapping(other < cell || others == 0 ? other : other + 1);
+    if (polled.active) {
+      cells_.copy(cell, polled.T_map_robot, rng);
+      ++counts.copies;
+      return;
+    }
+  }
+  cells_.place(cell, space_.sampler.draw(rng));
+  ++counts.draws;
+}
+
+NetworkCounts Network::step_chunk(std::size_t first, std::size_t count) {
+  NetworkCounts counts;
+  std::array<Test, chunk_cells> tests;
+  std::array<float, chunk_cells> simulated_m;
+  const auto rng_of = [&](std::size_t cell, std::uint32_t phase) {
+    return CounterRng(options_.seed, options_.run, static_cast<std::uint32_t>(cell), 2 * iteration_ + phase);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    CounterRng rng = rng_of(first + i, 0);
+    const std::uint32_t beam = rng.below(static_cast<std::uint32_t>(space_.bands.size()));
+    diffuse(first + i, rng, counts);
+    tests[i] = {.T_map_robot = cells_.T_map_robot(first + i), .beam = beam};
+  }
+  const double start_ms = options_.measure_casting ? thread_time_ms() : 0.0;
+  space_.rays.cast(std::span(tests).first(count), simulated_m);
+  if (options_.measure_casting) counts.cast_ms = thread_time_ms() - start_ms;
+  counts.tests = static_cast<std::int64_t>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t cell = first + i;
+    const std::size_t level = cells_.level(cell);
+    if (space_.bands.band(level, tests[i].beam).contains(simulated_m[i]) &&
+        !excluded_.contains(tests[i].T_map_robot)) {
+      CounterRng rng = rng_of(cell, 1);
+      counts.focused += level == cells_.finest() ? 1 : 0;
+      cells_.pass(cell, rng);
+    } else {
+      cells_.fail(cell);
+    }
+  }
+  return counts;
+}
+
+void Network::step() {
+  const std::size_t chunks = (cells_.size() + chunk_cells - 1) / chunk_cells;
+  std::vector<NetworkCounts> counts(chunks);
+  parallel_for(chunks, options_.threads, [&](std::size_t chunk) {
+    const std::size_t first = chunk * chunk_cells;
+    counts[chunk] = step_chunk(first, std::min(chunk_cells, cells_.size() - first));
+  });
+  counts_.focused = 0;
+  for (const NetworkCounts& one : counts) counts_.add(one);
+  cells_.publish();
+  ++iteration_;
+}
+
+}  // namespace landfall::internal

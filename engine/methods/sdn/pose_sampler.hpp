@@ -1,0 +1,53 @@
+// Poses drawn from a prior: a lattice pose of its support, moved within the lattice's step.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/counter_rng.hpp"
+#include "engine/domain.hpp"
+
+namespace landfall::internal {
+
+// Holds references to what it is made from. A domain without poses has no draws.
+class PoseSampler {
+ public:
+  PoseSampler(const Lattice& lattice, const Domain& domain);
+
+  [[nodiscard]] Pose2 draw(CounterRng& rng) const;
+  // Of the support, in square metres times radians.
+  [[nodiscard]] double volume() const { return volume_; }
+  // Half of the box and of the cone around all of it.
+  [[nodiscard]] double half_extent_m() const { return half_extent_m_; }
+  [[nodiscard]] double half_extent_rad() const { return half_extent_rad_; }
+
+ private:
+  // A mask that headings share, with the number of cells before each of its words.
+  struct CountedMask {
+    const BlockMask* mask = nullptr;
+    std::vector<std::int64_t> cells_before{};  // one more than words
+  };
+  // Headings of one component of the prior, each with the poses of those before it.
+  struct Component {
+    double weight_up_to = 0.0;  // its own included
+    const GaussianDensity* gaussian = nullptr;
+    std::vector<int> headings{};
+    std::vector<std::size_t> mask_of_heading{};
+    std::vector<std::int64_t> poses_before{};  // one more than headings
+  };
+
+  void add(const DomainComponent& component);
+  std::size_t counted(const BlockMask& mask);
+  void measure(const Domain& domain);
+  [[nodiscard]] LatticePose lattice_pose(const Component& component, std::int64_t index) const;
+  [[nodiscard]] Pose2 moved_within_step(const LatticePose& pose, CounterRng& rng) const;
+
+  const Lattice& lattice_;
+  std::vector<CountedMask> masks_;
+  std::vector<Component> components_;
+  double volume_ = 0.0;
+  double half_extent_m_ = 0.0;
+  double half_extent_rad_ = 0.0;
+};
+
+}  // namespace landfall::internal
