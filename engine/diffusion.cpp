@@ -30,8 +30,7 @@ void validate(const DiffusionOptions& options) {
   require((options.top_half_m > 0.0) == (options.top_half_rad > 0.0),
           "top_half_m and top_half_rad: expected both or neither");
   for (const int iteration : options.snapshot_iterations)
-    require(iteration >= 0,
-            "snapshot_iterations has " + std::to_string(iteration) + ", expected 0 or more");
+    require(iteration >= 0, "snapshot_iterations has " + std::to_string(iteration) + ", expected 0 or more");
 }
 
 // The first one, of initialisation and its tests, is iteration 0.
@@ -89,6 +88,7 @@ void take(const DiffusionAnswer& answer, DiffusionRun& run) {
   run.draws = answer.counts.draws;
   run.rays_cast = answer.counts.tests;
   run.cast_ms = answer.counts.cast_ms;
+  run.processor_ms = answer.counts.step_ms;
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ DiffusionRun run_diffusion(const PreparedMap& map, const PosePrior& prior, const
       .focused = options.focused,
       .cells = static_cast<std::size_t>(options.cells),
       .top = {.half_m = options.top_half_m, .half_rad = options.top_half_rad},
-      .measure_casting = true,
+      .measure_time = true,
       .observe = [&observer](const Network& network, std::uint32_t number) { observer(network, number); }};
   const EndPoints points = make_end_points(scan, lattice.resolution_m);
   Query query{.map = map.state(),

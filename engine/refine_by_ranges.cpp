@@ -58,10 +58,10 @@ class RangeResiduals {
   [[nodiscard]] double noise_m() const { return echoes_.noise_m; }
 
   Linearised at(const Pose2& T_map_robot, double width_m) {
-    const std::array<raycast::Pose, 4> poses{
-        to_raycast(T_map_robot), to_raycast(moved(T_map_robot, {step_m, 0.0, 0.0})),
-        to_raycast(moved(T_map_robot, {0.0, step_m, 0.0})),
-        to_raycast(moved(T_map_robot, {0.0, 0.0, step_rad}))};
+    const std::array<raycast::Pose, 4> poses{to_raycast(T_map_robot),
+                                             to_raycast(moved(T_map_robot, {step_m, 0.0, 0.0})),
+                                             to_raycast(moved(T_map_robot, {0.0, step_m, 0.0})),
+                                             to_raycast(moved(T_map_robot, {0.0, 0.0, step_rad}))};
     scene_.cast_fans(poses, echoes_.beams, simulated_m_);
     const std::size_t count = echoes_.beams.size();
     Linearised sum;

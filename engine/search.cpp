@@ -149,8 +149,7 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
 // not may score less. Looked for where that is cheap: with so wide a margin bounds exclude little.
 bool deserves_second_look(const Query& query, const Method& method, const Modes& modes) {
   constexpr std::int64_t most_poses = 100'000'000;
-  if (modes.by_ranges) return false;  // of other scores the margin is the method's
-  if (!method.looks_within_margin) return false;
+  if (modes.by_ranges || method.samples) return false;  // of other scores the margin is the method's
   if (query.domain.poses > most_poses || query.out_of_time()) return false;
   return !modes.modes.empty() && std::none_of(modes.modes.begin(), modes.modes.end(), [](const Mode& mode) {
     return mode.hypothesis.explained >= least_explained;
@@ -204,6 +203,8 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
   }
   const StageTimer rank_timer(result.times.rank_ms);
   rank(found, options.max_hypotheses, result);
+  const bool in_time = options.time_budget_s <= 0.0 || ms_since(start) < 1e3 * options.time_budget_s;
+  if (method.samples && result.hypotheses.empty() && in_time) result.reason = "no pose was found that fits";
   return result;
 }
 

@@ -17,6 +17,7 @@ NB_MODULE(_landfall, module) {
   bind_search(module);
   bind_correlation(module);
   bind_grid_matching(module);
+  bind_diffusion(module);
   bind_logs(module);
   bind_files(module);
 }

@@ -53,13 +53,13 @@ constexpr std::array<Method, 8> table{{
               .summary = "stochastic diffusion network, tested by ray casts: rooms; see fsdn",
               .source = "Beattie & Bishop"},
      .propose = propose_sdn,
-     .looks_within_margin = false,
+     .samples = true,
      .refines_by_ranges = true},
     {.info = {.name = "fsdn",
               .summary = "focused stochastic diffusion network, tested by ray casts: plans, to a centimetre",
               .source = "Beattie & Bishop"},
      .propose = propose_fsdn,
-     .looks_within_margin = false,
+     .samples = true,
      .refines_by_ranges = true},
 }};
 

@@ -11,8 +11,8 @@ namespace landfall::internal {
 struct Method {
   MethodInfo info;
   Proposal (*propose)(const Query& query);
-  bool centers_headings = false;  // on the prior
-  bool looks_within_margin = true;  // a wider margin of the query lets it find more
+  bool centers_headings = false;   // on the prior
+  bool samples = false;            // poses, and knows no margin within which it found all
   bool refines_by_ranges = false;  // where the map's walls are exact
 };
 

@@ -14,12 +14,12 @@
 namespace landfall {
 
 struct DiffusionOptions {
-  bool focused = true;         // fsdn; false: sdn, the finest level alone
-  int cells = 0;               // 0: chosen from the size of what is searched
-  double top_half_m = 0.0;     // half width of the top level's regions; 0: chosen
-  double top_half_rad = 0.0;   // of their headings
-  int max_modes = 5;           // networks are run until so many modes are found, or none explains as well
-  int threads = 0;             // 0: all
+  bool focused = true;        // fsdn; false: sdn, the finest level alone
+  int cells = 0;              // 0: chosen from the size of what is searched
+  double top_half_m = 0.0;    // half width of the top level's regions; 0: chosen
+  double top_half_rad = 0.0;  // of their headings
+  int max_modes = 5;          // networks are run until so many modes are found, or none explains as well
+  int threads = 0;            // 0: all
   std::uint64_t seed = 0;
   double time_budget_s = 0.0;  // 0: none
   // Of the first network: the cells after these iterations (0: initialised and tested once), and at its end.
@@ -39,7 +39,7 @@ struct DiffusionMode {
   Pose2 T_map_robot{};  // the mean of its cells, not refined
   int agreeing = 0;     // beams within their tolerance at the finest level
   int cells = 0;
-  int iterations = 0;   // of the network that found it
+  int iterations = 0;  // of the network that found it
 };
 
 struct DiffusionLevel {
@@ -56,9 +56,10 @@ struct DiffusionRun {
   std::int64_t iterations = 0;  // of all networks, as the counts below
   std::int64_t draws = 0;       // of new mappings
   std::int64_t rays_cast = 0;
-  double cast_ms = 0.0;         // processor time in ray casting, over all threads
-  double first_mode_ms = 0.0;   // wall time until the first network ended
-  double total_ms = 0.0;        // wall time
+  double cast_ms = 0.0;        // processor time in ray casting, over all threads
+  double processor_ms = 0.0;   // of the networks' iterations, over all threads, casting included
+  double first_mode_ms = 0.0;  // wall time until the first network ended
+  double total_ms = 0.0;       // wall time
 };
 
 // Throws Error{invalid_argument}: a map, prior or scan that search() would refuse, options out of range.

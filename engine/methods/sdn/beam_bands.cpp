@@ -44,8 +44,8 @@ std::vector<ValidBeam> valid_beams(const Scan& scan) {
                      .noise_m = sensor.range_noise_m + sensor.range_noise_relative * range_m});
   }
   for (std::size_t i = 0; i < valid.size(); ++i)  // the last one's next is the first: a full circle
-    valid[i].to_next_rad = turn_to_neighbour(sensor.beams[valid[i].beam],
-                                             sensor.beams[valid[(i + 1) % valid.size()].beam]);
+    valid[i].to_next_rad =
+        turn_to_neighbour(sensor.beams[valid[i].beam], sensor.beams[valid[(i + 1) % valid.size()].beam]);
   return valid;
 }
 
@@ -58,7 +58,8 @@ class Side {
     const double own_m = valid_[at].range_m;
     double turned_rad = 0.0;
     for (std::size_t steps = 0; steps < valid_.size(); ++steps) {
-      const std::size_t next = forwards_ ? (at + 1) % valid_.size() : (at + valid_.size() - 1) % valid_.size();
+      const std::size_t next =
+          forwards_ ? (at + 1) % valid_.size() : (at + valid_.size() - 1) % valid_.size();
       const double step_rad = valid_[forwards_ ? at : next].to_next_rad;
       if (step_rad == 0.0) {  // nobody sees what lies there: a wall at 45 degrees
         add(own_m - own_m * (window_rad - turned_rad), least_m, most_m);
@@ -89,8 +90,8 @@ class Side {
 Band band_of(const std::vector<ValidBeam>& valid, std::size_t at, const FocusLevel& level,
              const BandOptions& options) {
   const ValidBeam& beam = valid[at];
-  const double window_rad =
-      std::min(widest_window_rad, options.region_share * (level.half_rad + std::atan2(level.half_m, beam.range_m)));
+  const double window_rad = std::min(
+      widest_window_rad, options.region_share * (level.half_rad + std::atan2(level.half_m, beam.range_m)));
   double least_m = beam.range_m;
   double most_m = beam.echo ? beam.range_m : infinity;
   Side(valid, true).widen(at, window_rad, least_m, most_m);

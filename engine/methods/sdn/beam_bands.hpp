@@ -19,9 +19,9 @@
 
 namespace landfall::internal {
 
-// Poses in a region's corners are few: bands for this share of its widths hold most of it, and are passed
-// by chance less often.
-inline constexpr double default_region_share = 0.7;
+// Bands for all of a region are passed by chance too often, which costs more tests than the poses near a
+// region's border that bands for this share of its widths miss (bench/RESULTS.md).
+inline constexpr double default_region_share = 0.35;
 
 struct BandOptions {
   double region_share = default_region_share;

@@ -3,9 +3,12 @@
 namespace landfall::internal {
 namespace {
 
-// One in two regions is the middle of the one above: a copied mapping that is right is right all the way
-// down.
-constexpr std::uint32_t ways_to_move = 2;
+// One in so many mappings stays in the middle of the region that it comes from: one that was copied from the
+// right place is then right all the way down.
+constexpr std::uint32_t middle_one_in = 4;
+// So many tests in a row within tolerance at the finest level, and a cell counts as focused: one is passed by
+// chance from a few centimetres off, which would be averaged in.
+constexpr std::uint8_t focused_after = 3;
 
 double between_plus_minus(double half, CounterRng& rng) {
   return half * (2.0 * rng.uniform() - 1.0);
@@ -20,26 +23,34 @@ Pose2 moved_within(const Pose2& pose, const FocusLevel& box, CounterRng& rng) {
 }  // namespace
 
 Cells::Cells(std::size_t count, std::span<const FocusLevel> levels)
-    : levels_(levels), level_(count), path_(count * levels.size()), mappings_(count), next_(count) {}
+    : levels_(levels),
+      level_(count),
+      passed_(count),
+      path_(count * levels.size()),
+      mappings_(count),
+      next_(count) {}
 
 void Cells::place(std::size_t cell, const Pose2& T_map_robot) {
   level_[cell] = 0;
+  passed_[cell] = 0;
   path_[index(cell)] = T_map_robot;
 }
 
 void Cells::copy(std::size_t cell, const Pose2& T_map_robot, CounterRng& rng) {
-  place(cell, rng.below(ways_to_move) == 0 ? T_map_robot : moved_within(T_map_robot, levels_.front(), rng));
+  place(cell, rng.below(middle_one_in) == 0 ? T_map_robot : moved_within(T_map_robot, levels_.front(), rng));
 }
 
 void Cells::pass(std::size_t cell, CounterRng& rng) {
-  const bool focused = level_[cell] == finest();
-  next_[cell] = {.T_map_robot = T_map_robot(cell), .active = true, .focused = focused};
-  if (focused) return;
+  const bool at_finest = level_[cell] == finest();
+  if (at_finest && passed_[cell] < focused_after) ++passed_[cell];
+  next_[cell] = {.T_map_robot = T_map_robot(cell), .active = true, .focused = passed_[cell] >= focused_after};
+  if (at_finest) return;
   Pose2 T_map_part = T_map_robot(cell);
-  if (rng.below(ways_to_move) != 0) {
+  if (rng.below(middle_one_in) != 0) {
     const FocusLevel& here = levels_[level_[cell]];
     const FocusLevel& below = levels_[level_[cell] + 1U];
-    T_map_part = moved_within(T_map_part, {.half_m = here.half_m - below.half_m, .half_rad = here.half_rad - below.half_rad}, rng);
+    T_map_part = moved_within(
+        T_map_part, {.half_m = here.half_m - below.half_m, .half_rad = here.half_rad - below.half_rad}, rng);
   }
   ++level_[cell];
   path_[index(cell)] = T_map_part;
@@ -47,6 +58,7 @@ void Cells::pass(std::size_t cell, CounterRng& rng) {
 
 void Cells::fail(std::size_t cell) {
   const bool active = level_[cell] > 0;
+  passed_[cell] = 0;
   if (active) --level_[cell];
   next_[cell] = {.T_map_robot = T_map_robot(cell), .active = active};
 }

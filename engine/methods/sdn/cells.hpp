@@ -19,7 +19,7 @@ namespace landfall::internal {
 struct Mapping {
   Pose2 T_map_robot{};
   bool active = false;
-  bool focused = false;  // within tolerance at the finest level
+  bool focused = false;  // within tolerance at the finest level, several times in a row
 };
 
 class Cells {
@@ -54,7 +54,8 @@ class Cells {
 
   std::span<const FocusLevel> levels_;
   std::vector<std::uint8_t> level_;
-  std::vector<Pose2> path_;  // cell by cell, a pose a level
+  std::vector<std::uint8_t> passed_;  // tests in a row at the finest level
+  std::vector<Pose2> path_;           // cell by cell, a pose a level
   std::vector<Mapping> mappings_;
   std::vector<Mapping> next_;
 };

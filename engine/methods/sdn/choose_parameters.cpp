@@ -8,7 +8,7 @@
 namespace landfall::internal {
 namespace {
 
-constexpr FocusLevel default_top{.half_m = 0.3, .half_rad = 0.0872664626};  // 5 degrees
+constexpr FocusLevel default_top{.half_m = 0.5, .half_rad = 0.0872664626};  // 5 degrees
 
 }  // namespace
 
@@ -28,15 +28,14 @@ double map_noise_m(const PreparedState& map) {
 }
 
 std::size_t choose_cells(double regions) {
-  return static_cast<std::size_t>(std::clamp(4.0 * std::sqrt(regions), 64.0, 4096.0));
+  return static_cast<std::size_t>(std::clamp(9.0 * std::sqrt(regions), 64.0, 4096.0));
 }
 
-RunLimits choose_limits(double regions, std::size_t cells, bool rival) {
-  constexpr double draws_per_region = 8.0;
-  constexpr double rival_draws_per_region = 3.0;
+RunLimits choose_limits(double regions, std::size_t cells) {
+  constexpr double draws_per_region = 4.0;
   constexpr double iterations_per_draw = 20.0;
   constexpr double fewest_iterations = 100.0;
-  const double draws = (rival ? rival_draws_per_region : draws_per_region) * regions;
+  const double draws = draws_per_region * regions;
   const auto count = static_cast<double>(cells);
   return {.draws = static_cast<std::int64_t>(draws + 10.0 * count),
           .iterations = static_cast<std::uint32_t>(

@@ -30,8 +30,8 @@ struct RunLimits {
   std::int64_t draws = 0;
   std::uint32_t iterations = 0;
 };
-// How long a network may go on: as many draws as miss a region that holds the robot once in so many times;
-// rivals of a mode found are looked for less long.
-RunLimits choose_limits(double regions, std::size_t cells, bool rival);
+// How long the networks of a scan may go on: as many draws as miss a region that holds the robot once in 50
+// times, and iterations of a network in which hardly any cell draws.
+RunLimits choose_limits(double regions, std::size_t cells);
 
 }  // namespace landfall::internal

@@ -22,16 +22,20 @@ struct Binned {
   friend auto operator<=>(const Binned&, const Binned&) = default;
 };
 
-std::vector<Binned> in_bins(std::span<const Mapping> mappings, const FocusLevel& reach) {
+bool counts(const Mapping& mapping, Counted counted) {
+  return counted == Counted::focused ? mapping.focused : mapping.active;
+}
+
+std::vector<Binned> in_bins(std::span<const Mapping> mappings, const FocusLevel& reach, Counted counted) {
   std::vector<Binned> binned;
   for (std::size_t i = 0; i < mappings.size(); ++i) {
-    if (!mappings[i].focused) continue;
+    if (!counts(mappings[i], counted)) continue;
     const Pose2& pose = mappings[i].T_map_robot;
-    binned.push_back({.bin = {.x = static_cast<std::int32_t>(std::floor(pose.x_m / (2.0 * reach.half_m))),
-                              .y = static_cast<std::int32_t>(std::floor(pose.y_m / (2.0 * reach.half_m))),
-                              .theta = static_cast<std::int32_t>(
-                                  std::floor(pose.theta_rad / (2.0 * reach.half_rad)))},
-                      .mapping = static_cast<std::uint32_t>(i)});
+    binned.push_back(
+        {.bin = {.x = static_cast<std::int32_t>(std::floor(pose.x_m / (2.0 * reach.half_m))),
+                 .y = static_cast<std::int32_t>(std::floor(pose.y_m / (2.0 * reach.half_m))),
+                 .theta = static_cast<std::int32_t>(std::floor(pose.theta_rad / (2.0 * reach.half_rad)))},
+         .mapping = static_cast<std::uint32_t>(i)});
   }
   std::sort(binned.begin(), binned.end());
   return binned;
@@ -50,7 +54,8 @@ std::uint32_t densest(const std::vector<Binned>& binned) {
   return binned[best].mapping;
 }
 
-Cluster around(std::span<const Mapping> mappings, const Pose2& center, const FocusLevel& reach) {
+Cluster around(std::span<const Mapping> mappings, const Pose2& center, const FocusLevel& reach,
+               Counted counted) {
   Cluster cluster;
   double x_m = 0.0;
   double y_m = 0.0;
@@ -58,7 +63,7 @@ Cluster around(std::span<const Mapping> mappings, const Pose2& center, const Foc
   double s = 0.0;
   for (const Mapping& mapping : mappings) {
     const Pose2& pose = mapping.T_map_robot;
-    if (!mapping.focused || std::abs(pose.x_m - center.x_m) > reach.half_m ||
+    if (!counts(mapping, counted) || std::abs(pose.x_m - center.x_m) > reach.half_m ||
         std::abs(pose.y_m - center.y_m) > reach.half_m ||
         angle_distance(pose.theta_rad, center.theta_rad) > reach.half_rad)
       continue;
@@ -75,13 +80,13 @@ Cluster around(std::span<const Mapping> mappings, const Pose2& center, const Foc
 
 }  // namespace
 
-Cluster largest_cluster(std::span<const Mapping> mappings, const FocusLevel& reach) {
+Cluster largest_cluster(std::span<const Mapping> mappings, const FocusLevel& reach, Counted counted) {
   constexpr int rounds = 3;
-  const std::vector<Binned> binned = in_bins(mappings, reach);
+  const std::vector<Binned> binned = in_bins(mappings, reach, counted);
   if (binned.empty()) return {};
   Cluster cluster{.cells = 1, .T_map_robot = mappings[densest(binned)].T_map_robot};
   for (int i = 0; i < rounds; ++i) {
-    const Cluster next = around(mappings, cluster.T_map_robot, reach);
+    const Cluster next = around(mappings, cluster.T_map_robot, reach, counted);
     if (next.cells == 0) break;
     cluster = next;
   }

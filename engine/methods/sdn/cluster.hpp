@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "engine/methods/sdn/cells.hpp"
@@ -13,8 +14,13 @@ struct Cluster {
   Pose2 T_map_robot{};  // their mean, of headings the circular one
 };
 
-// Among the focused mappings; those within `reach` of their mean are one group. A group that several places
-// share at their border is found where most of it is.
-Cluster largest_cluster(std::span<const Mapping> mappings, const FocusLevel& reach);
+enum class Counted : std::uint8_t {
+  focused,  // 3.4: cells within tolerance at the finest level
+  active
+};
+
+// Among the mappings counted; those within `reach` of their mean are one group.
+Cluster largest_cluster(std::span<const Mapping> mappings, const FocusLevel& reach,
+                        Counted counted = Counted::focused);
 
 }  // namespace landfall::internal

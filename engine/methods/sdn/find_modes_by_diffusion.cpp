@@ -14,6 +14,14 @@ namespace {
 constexpr FocusLevel cluster_reach{.half_m = 0.1, .half_rad = 0.06};
 // A mode that explains less than this part of the best one does not explain as well.
 constexpr double as_well = 0.85;
+// A mode that explains so many beams is taken to be one.
+constexpr double good = 0.8;
+constexpr std::size_t most_modes = 16;
+// 2.2 asks for equilibrium among cells at the finest level. Where nearly all cells have been active for long
+// without it, they hold each other in a place that fits at the coarser levels alone, and draw no new
+// mappings: that place is a mode too, a bad one, without which the next network goes on.
+constexpr double saturation = 0.75;
+constexpr int most_saturated = 80;
 
 // The networks of one query.
 class DiffusionSearch {
@@ -30,15 +38,15 @@ class DiffusionSearch {
         cells_(settings.cells > 0 ? settings.cells : choose_cells(regions_)) {}
 
   DiffusionAnswer run() {
-    answer_ = {.levels = levels_, .regions = regions_, .cells = cells_, .beams = static_cast<int>(bands_.size())};
-    const auto most_modes = static_cast<std::size_t>(std::max(1, query_.options.max_hypotheses));
-    int most_agreeing = 0;
+    answer_.levels = levels_;
+    answer_.regions = regions_;
+    answer_.cells = cells_;
+    answer_.beams = static_cast<int>(bands_.size());
     for (std::uint32_t number = 0; answer_.modes.size() < most_modes; ++number) {
       const std::optional<DiffusionMode> mode = run_network(number);
       if (!mode) break;
       answer_.modes.push_back(*mode);
-      if (mode->agreeing < as_well * most_agreeing) break;
-      most_agreeing = std::max(most_agreeing, mode->agreeing);
+      if (none_explains_as_well()) break;
     }
     return std::move(answer_);
   }
@@ -56,30 +64,52 @@ class DiffusionSearch {
                      .seed = query_.options.seed,
                      .run = number,
                      .threads = query_.threads,
-                     .measure_casting = settings_.measure_casting});
+                     .measure_time = settings_.measure_time});
     std::optional<DiffusionMode> mode = until_equilibrium(network, number);
     answer_.counts.add(network.counts());
     answer_.iterations += network.iterations();
     return mode;
   }
 
+  // The latest mode is beside a good one, and worse.
+  [[nodiscard]] bool none_explains_as_well() const {
+    int most_agreeing = 0;
+    for (const DiffusionMode& mode : answer_.modes) most_agreeing = std::max(most_agreeing, mode.agreeing);
+    return most_agreeing >= good * static_cast<double>(bands_.size()) &&
+           answer_.modes.back().agreeing < as_well * most_agreeing;
+  }
+
   std::optional<DiffusionMode> until_equilibrium(Network& network, std::uint32_t number) {
-    const RunLimits limits = choose_limits(regions_, cells_, number > 0);
+    const RunLimits limits = choose_limits(regions_, cells_);
     Equilibrium equilibrium({.cells = cells_});
-    while (network.counts().draws < limits.draws && network.iterations() < limits.iterations) {
+    int saturated = 0;
+    while (answer_.counts.draws + network.counts().draws < limits.draws &&
+           network.iterations() < limits.iterations) {
       if (query_.out_of_time()) break;
       network.step();
       if (settings_.observe) settings_.observe(network, number);
-      const Cluster cluster = network.counts().focused >= 2
-                                  ? largest_cluster(network.cells().mappings(), cluster_reach)
-                                  : Cluster{};
-      if (!equilibrium.add(cluster.cells)) continue;
-      return DiffusionMode{.T_map_robot = cluster.T_map_robot,
-                           .agreeing = rays_.count_agreeing(cluster.T_map_robot, levels_.size() - 1),
-                           .cells = static_cast<int>(cluster.cells),
-                           .iterations = static_cast<int>(network.iterations())};
+      const Cluster cluster = cluster_of(network, network.counts().focused);
+      if (equilibrium.add(cluster.cells)) return mode_of(network, cluster);
+      const bool nearly_all =
+          static_cast<double>(network.counts().active) >= saturation * static_cast<double>(cells_);
+      saturated = nearly_all ? saturated + 1 : 0;
+      if (saturated >= most_saturated)
+        return mode_of(network, cluster.cells >= 2 ? cluster
+                                                   : largest_cluster(network.cells().mappings(),
+                                                                     levels_.front(), Counted::active));
     }
     return std::nullopt;
+  }
+
+  [[nodiscard]] static Cluster cluster_of(const Network& network, std::int64_t focused) {
+    return focused >= 2 ? largest_cluster(network.cells().mappings(), cluster_reach) : Cluster{};
+  }
+
+  [[nodiscard]] DiffusionMode mode_of(const Network& network, const Cluster& cluster) const {
+    return {.T_map_robot = cluster.T_map_robot,
+            .agreeing = rays_.count_agreeing(cluster.T_map_robot, levels_.size() - 1),
+            .cells = static_cast<int>(cluster.cells),
+            .iterations = static_cast<int>(network.iterations())};
   }
 
   const Query& query_;

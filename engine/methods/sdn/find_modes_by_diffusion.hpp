@@ -19,18 +19,18 @@ struct DiffusionSettings {
   std::size_t cells = 0;
   FocusLevel top{};
   double region_share = default_region_share;
-  bool measure_casting = false;
+  bool measure_time = false;
   // Called after each iteration of each network.
   std::function<void(const Network& network, std::uint32_t run)> observe{};
 };
 
 struct DiffusionAnswer {
-  std::vector<DiffusionMode> modes;  // in the order found
-  std::vector<FocusLevel> levels;
+  std::vector<DiffusionMode> modes{};  // in the order found
+  std::vector<FocusLevel> levels{};
   double regions = 0.0;  // of the top level in the prior
   std::size_t cells = 0;
   std::int64_t iterations = 0;
-  NetworkCounts counts;
+  NetworkCounts counts{};
   int beams = 0;  // that can be tested
 };
 

@@ -27,8 +27,10 @@ void NetworkCounts::add(const NetworkCounts& other) {
   draws += other.draws;
   copies += other.copies;
   tests += other.tests;
+  active += other.active;
   focused += other.focused;
   cast_ms += other.cast_ms;
+  step_ms += other.step_ms;
 }
 
 Network::Network(const SearchSpace& space, const Excluded& excluded, const NetworkOptions& options)
@@ -53,6 +55,8 @@ void Network::diffuse(std::size_t cell, CounterRng& rng, NetworkCounts& counts) 
 }
 
 NetworkCounts Network::step_chunk(std::size_t first, std::size_t count) {
+  const auto now_ms = [&] { return options_.measure_time ? thread_time_ms() : 0.0; };
+  const double start_ms = now_ms();
   NetworkCounts counts;
   std::array<Test, chunk_cells> tests;
   std::array<float, chunk_cells> simulated_m;
@@ -65,22 +69,25 @@ NetworkCounts Network::step_chunk(std::size_t first, std::size_t count) {
     diffuse(first + i, rng, counts);
     tests[i] = {.T_map_robot = cells_.T_map_robot(first + i), .beam = beam};
   }
-  const double start_ms = options_.measure_casting ? thread_time_ms() : 0.0;
+  const double cast_start_ms = now_ms();
   space_.rays.cast(std::span(tests).first(count), simulated_m);
-  if (options_.measure_casting) counts.cast_ms = thread_time_ms() - start_ms;
+  counts.cast_ms = now_ms() - cast_start_ms;
   counts.tests = static_cast<std::int64_t>(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t cell = first + i;
     const std::size_t level = cells_.level(cell);
-    if (space_.bands.band(level, tests[i].beam).contains(simulated_m[i]) &&
-        !excluded_.contains(tests[i].T_map_robot)) {
+    const bool passed = space_.bands.band(level, tests[i].beam).contains(simulated_m[i]) &&
+                        !excluded_.contains(tests[i].T_map_robot);
+    if (passed) {
       CounterRng rng = rng_of(cell, 1);
       counts.focused += level == cells_.finest() ? 1 : 0;
       cells_.pass(cell, rng);
     } else {
       cells_.fail(cell);
     }
+    counts.active += passed || level > 0 ? 1 : 0;
   }
+  counts.step_ms = now_ms() - start_ms;
   return counts;
 }
 
@@ -91,7 +98,7 @@ void Network::step() {
     const std::size_t first = chunk * chunk_cells;
     counts[chunk] = step_chunk(first, std::min(chunk_cells, cells_.size() - first));
   });
-  counts_.focused = 0;
+  counts_.active = counts_.focused = 0;
   for (const NetworkCounts& one : counts) counts_.add(one);
   cells_.publish();
   ++iteration_;

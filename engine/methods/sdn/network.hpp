@@ -33,8 +33,10 @@ struct NetworkCounts {
   std::int64_t draws = 0;    // of new mappings
   std::int64_t copies = 0;   // of another cell's
   std::int64_t tests = 0;    // rays cast
+  std::int64_t active = 0;   // cells, in the last iteration
   std::int64_t focused = 0;  // cells within tolerance at the finest level, in the last iteration
-  double cast_ms = 0.0;      // processor time in ray casting, where it was to be measured
+  double cast_ms = 0.0;      // processor time in ray casting, where it was to be measured,
+  double step_ms = 0.0;      // and in all of the iterations
 
   void add(const NetworkCounts& other);
 };
@@ -44,7 +46,7 @@ struct NetworkOptions {
   std::uint64_t seed = 0;
   std::uint32_t run = 0;  // counts the networks of one scan
   int threads = 1;
-  bool measure_casting = false;
+  bool measure_time = false;
 };
 
 class Network {
@@ -56,7 +58,7 @@ class Network {
 
   [[nodiscard]] const Cells& cells() const { return cells_; }
   [[nodiscard]] std::uint32_t iterations() const { return iteration_; }
-  // Of all iterations; focused of the last one.
+  // Of all iterations; active and focused of the last one.
   [[nodiscard]] const NetworkCounts& counts() const { return counts_; }
 
  private:

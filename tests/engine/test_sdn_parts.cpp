@@ -1,0 +1,228 @@
+// The parts of the stochastic diffusion networks, on hand-made cells.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/methods/sdn/beam_bands.hpp"
+#include "engine/methods/sdn/cells.hpp"
+#include "engine/methods/sdn/cluster.hpp"
+#include "engine/methods/sdn/equilibrium.hpp"
+#include "engine/methods/sdn/pose_sampler.hpp"
+#include "rooms.hpp"
+
+namespace landfall {
+namespace {
+
+using internal::Cells;
+using internal::CounterRng;
+using internal::FocusLevel;
+using internal::Mapping;
+
+const std::vector<FocusLevel> three_levels{
+    {.half_m = 0.4, .half_rad = 0.1}, {.half_m = 0.2, .half_rad = 0.05}, {.half_m = 0.1, .half_rad = 0.025}};
+
+TEST(FocusLevels, HalveOrFasterDownToTheFinest) {
+  const auto levels = internal::make_focus_levels({.half_m = 0.5, .half_rad = 0.1});
+  ASSERT_EQ(levels.size(), 7);  // 0.5 / 0.01 = 50 is between 2^5 and 2^6
+  EXPECT_DOUBLE_EQ(levels.front().half_m, 0.5);
+  EXPECT_NEAR(levels.back().half_m, internal::finest_level.half_m, 1e-12);
+  EXPECT_NEAR(levels.back().half_rad, internal::finest_level.half_rad, 1e-12);
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    EXPECT_LT(levels[i].half_rad, levels[i - 1].half_rad);
+    EXPECT_GT(levels[i].half_m, 0.5 * levels[i - 1].half_m - 1e-12);
+  }
+}
+
+TEST(FocusLevels, APriorAsSmallAsTheFinestHasOne) {
+  EXPECT_EQ(internal::make_focus_levels({.half_m = 0.001, .half_rad = 0.001}).size(), 1);
+}
+
+TEST(Cells, AreActiveAfterATestThatPassesAtTheTop) {
+  Cells cells(1, three_levels);
+  CounterRng rng(1);
+  cells.place(0, {1.0, 2.0, 0.5});
+  cells.pass(0, rng);
+  cells.publish();
+  EXPECT_TRUE(cells.mapping(0).active);
+  EXPECT_FALSE(cells.mapping(0).focused);
+  EXPECT_EQ(cells.mapping(0).T_map_robot, (Pose2{1.0, 2.0, 0.5}));
+  EXPECT_EQ(cells.level(0), 1);
+}
+
+TEST(Cells, AreInactiveAfterATestThatFailsAtTheTop) {
+  Cells cells(1, three_levels);
+  cells.place(0, {1.0, 2.0, 0.5});
+  cells.fail(0);
+  cells.publish();
+  EXPECT_FALSE(cells.mapping(0).active);
+  EXPECT_EQ(cells.level(0), 0);
+}
+
+TEST(Cells, MoveUpToTheRegionThatTheyCameFromAndStayActive) {
+  Cells cells(1, three_levels);
+  CounterRng rng(1);
+  cells.place(0, {1.0, 2.0, 0.5});
+  cells.pass(0, rng);
+  cells.pass(0, rng);
+  EXPECT_EQ(cells.level(0), 2);
+  cells.fail(0);
+  cells.fail(0);
+  cells.publish();
+  EXPECT_EQ(cells.level(0), 0);
+  EXPECT_TRUE(cells.mapping(0).active);
+  EXPECT_EQ(cells.T_map_robot(0), (Pose2{1.0, 2.0, 0.5}));
+}
+
+TEST(Cells, MoveDownIntoPartsOfTheirRegion) {
+  int moved = 0;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    Cells cells(1, three_levels);
+    CounterRng rng(7, i);
+    cells.place(0, {1.0, 2.0, 0.5});
+    cells.pass(0, rng);
+    const Pose2& T_map_part = cells.T_map_robot(0);
+    EXPECT_LE(std::abs(T_map_part.x_m - 1.0), 0.2);
+    EXPECT_LE(std::abs(T_map_part.y_m - 2.0), 0.2);
+    EXPECT_LE(std::abs(T_map_part.theta_rad - 0.5), 0.05);
+    moved += T_map_part == Pose2{1.0, 2.0, 0.5} ? 0 : 1;
+  }
+  EXPECT_NEAR(moved, 225, 30);  // one in four stays in the middle
+}
+
+TEST(Cells, AreFocusedAfterSeveralTestsAtTheFinestLevelAndStayThere) {
+  Cells cells(1, std::span(three_levels).last(1));
+  CounterRng rng(1);
+  cells.place(0, {1.0, 2.0, 0.5});
+  for (const bool focused : {false, false, true, true}) {
+    cells.pass(0, rng);
+    cells.publish();
+    EXPECT_EQ(cells.mapping(0).focused, focused);
+    EXPECT_EQ(cells.T_map_robot(0), (Pose2{1.0, 2.0, 0.5}));
+  }
+  cells.fail(0);
+  cells.publish();
+  EXPECT_FALSE(cells.mapping(0).focused);
+  EXPECT_FALSE(cells.mapping(0).active);  // the finest level is the top here: the plain network
+}
+
+TEST(Cells, CopiesBeginAtTheTopAroundTheirDonor) {
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    Cells cells(1, three_levels);
+    CounterRng rng(3, i);
+    cells.place(0, {5.0, 5.0, 0.0});
+    cells.pass(0, rng);
+    cells.copy(0, {1.0, 2.0, 0.5}, rng);
+    EXPECT_EQ(cells.level(0), 0);
+    EXPECT_LE(std::abs(cells.T_map_robot(0).x_m - 1.0), 0.4);
+    EXPECT_LE(std::abs(cells.T_map_robot(0).theta_rad - 0.5), 0.1);
+  }
+}
+
+TEST(Clusters, TheLargestIsAveragedWithACircularHeading) {
+  std::vector<Mapping> mappings;
+  for (const double off : {-0.01, 0.0, 0.01})
+    mappings.push_back({.T_map_robot = {1.0 + off, 2.0 - off, wrap_angle(std::numbers::pi + off)},
+                        .active = true,
+                        .focused = true});
+  mappings.push_back({.T_map_robot = {7.0, 7.0, 0.0}, .active = true, .focused = true});
+  for (int i = 0; i < 9; ++i)  // more, but none that has focused
+    mappings.push_back({.T_map_robot = {5.0, 5.0, 0.0}, .active = true, .focused = false});
+  const FocusLevel reach{.half_m = 0.05, .half_rad = 0.05};
+  const internal::Cluster cluster = internal::largest_cluster(mappings, reach);
+  EXPECT_EQ(cluster.cells, 3);
+  EXPECT_NEAR(cluster.T_map_robot.x_m, 1.0, 1e-12);
+  EXPECT_NEAR(cluster.T_map_robot.y_m, 2.0, 1e-12);
+  EXPECT_NEAR(angle_distance(cluster.T_map_robot.theta_rad, std::numbers::pi), 0.0, 1e-9);
+  EXPECT_EQ(internal::largest_cluster(mappings, reach, internal::Counted::active).cells, 9);
+  EXPECT_EQ(internal::largest_cluster({}, reach).cells, 0);
+}
+
+TEST(Equilibria, NeedALargeClusterThatKeepsItsSize) {
+  internal::Equilibrium small({.cells = 100, .iterations = 4, .least_share = 0.2, .bound_share = 0.1});
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(small.add(15));
+  internal::Equilibrium growing({.cells = 100, .iterations = 4, .least_share = 0.2, .bound_share = 0.1});
+  for (std::size_t z = 0; z <= 90; z += 10) EXPECT_FALSE(growing.add(z));
+  EXPECT_FALSE(growing.add(90));  // 70, 80, 90, 90
+  EXPECT_TRUE(growing.add(90));   // 80, 90, 90, 90: within 10 of 87.5
+}
+
+struct BandsOfARoom : ::testing::Test {
+  const PreparedMap map{testing::empty_room(102, 82, 0.1)};  // 10 x 8 m within its walls
+  const std::shared_ptr<const Sensor> sensor = testing::full_circle(360);
+  const Pose2 T_map_robot{5.1, 4.1, 0.0};
+  const Scan scan = testing::look(map, sensor, T_map_robot);
+  const std::vector<FocusLevel> levels = internal::make_focus_levels({.half_m = 0.4, .half_rad = 0.15});
+};
+
+TEST_F(BandsOfARoom, HoldWhatThePosesOfARegionMeasure) {
+  const internal::BeamBands all(scan, levels, {.region_share = 1.0, .map_noise_m = 0.0});
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    int held = 0;
+    int asked = 0;
+    for (std::uint32_t i = 0; i < 20; ++i) {
+      CounterRng rng(11, i);
+      const Pose2 T_map_other{T_map_robot.x_m + levels[level].half_m * (2.0 * rng.uniform() - 1.0),
+                              T_map_robot.y_m + levels[level].half_m * (2.0 * rng.uniform() - 1.0),
+                              levels[level].half_rad * (2.0 * rng.uniform() - 1.0)};
+      const std::vector<float> simulated_m = simulate_ranges(map, *sensor, std::span(&T_map_other, 1));
+      for (std::size_t b = 0; b < simulated_m.size(); ++b, ++asked)
+        held += all.band(level, b).contains(simulated_m[b]) ? 1 : 0;
+    }
+    EXPECT_GT(held, 0.97 * asked) << "level " << level;
+  }
+}
+
+TEST_F(BandsOfARoom, ShrinkWithTheLevelAndAreNarrowOnWallsThatAreMetHeadOn) {
+  const internal::BeamBands bands(scan, levels, {});
+  const auto width_m = [&](std::size_t level, std::size_t beam) {
+    return bands.band(level, beam).high_m - bands.band(level, beam).low_m;
+  };
+  for (std::size_t level = 1; level < levels.size(); ++level)
+    for (std::size_t b = 0; b < bands.size(); ++b)
+      EXPECT_LE(width_m(level, b), width_m(level - 1, b) + 1e-6F);
+  EXPECT_LT(width_m(0, 180), 0.5 * width_m(0, 180 + 35));  // beam 180 points along +x, at the wall
+}
+
+TEST_F(BandsOfARoom, LeaveOutInvalidBeamsAndAllowNothingHitWhereNothingWasHit) {
+  Scan other = scan;
+  other.ranges_m[3] = std::numeric_limits<float>::quiet_NaN();
+  other.ranges_m[4] = 30.0F;
+  const internal::BeamBands bands(other, levels, {});
+  EXPECT_EQ(bands.size(), 359);
+  EXPECT_EQ(bands.sensor_beam(3), 4);
+  EXPECT_TRUE(bands.band(0, 3).contains(std::numeric_limits<float>::infinity()));
+  EXPECT_FALSE(bands.band(0, 180).contains(std::numeric_limits<float>::infinity()));
+}
+
+TEST(PoseSampler, DrawsFromThePriorAlone) {
+  const PreparedMap map(testing::furnished_room());
+  const internal::Lattice lattice = internal::make_lattice(map.grid(), 0.0, 0.1);
+  const internal::SharedMask free = map.state().free_mask(0.0, 1);
+  const Window window{{2.0, 2.0, 3.0}, 0.6, 0.4, 0.5};
+  const Gaussian gaussian{{6.0, 3.0, 0.0}, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}};
+  const PosePrior prior{Mixture{{1.0, 3.0}, {{window}, {gaussian}}}};
+  const internal::Domain domain = internal::make_domain(prior, lattice, free);
+  const internal::PoseSampler sampler(lattice, domain);
+  int in_window = 0;
+  double mean_x_m = 0.0;
+  constexpr int draws = 4000;
+  for (std::uint32_t i = 0; i < draws; ++i) {
+    CounterRng rng(5, i);
+    const Pose2 T_map_robot = sampler.draw(rng);
+    const CellIndex cell = map.grid().cell_of({T_map_robot.x_m, T_map_robot.y_m});
+    EXPECT_EQ(map.grid().at(cell), Occupancy::free);
+    if (T_map_robot.x_m < 4.0) {
+      ++in_window;
+      EXPECT_LE(std::abs(T_map_robot.x_m - 2.0), 0.65 + 1e-9);
+      EXPECT_LE(angle_distance(T_map_robot.theta_rad, 3.0), 0.5 + 0.05 + 1e-9);
+    } else {
+      mean_x_m += T_map_robot.x_m;
+    }
+  }
+  EXPECT_NEAR(in_window, draws / 4, 5 * std::sqrt(draws * 0.25 * 0.75));
+  EXPECT_NEAR(mean_x_m / (draws - in_window), 6.0, 0.03);
+}
+
+}  // namespace
+}  // namespace landfall
