@@ -12,6 +12,7 @@ void bind_scans(nanobind::module_& module);
 void bind_priors(nanobind::module_& module);
 void bind_results(nanobind::module_& module);
 void bind_search(nanobind::module_& module);
+void bind_slam(nanobind::module_& module);
 void bind_correlation(nanobind::module_& module);
 void bind_grid_matching(nanobind::module_& module);
 void bind_diffusion(nanobind::module_& module);

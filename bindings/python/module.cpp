@@ -15,6 +15,7 @@ NB_MODULE(_landfall, module) {
   bind_priors(module);
   bind_results(module);
   bind_search(module);
+  bind_slam(module);
   bind_correlation(module);
   bind_grid_matching(module);
   bind_diffusion(module);

@@ -2,40 +2,19 @@
 
 #include <cmath>
 
+#include "engine/align/residual_sum.hpp"
+
 namespace landfall::internal {
 namespace {
 
-constexpr double outlier_m = 0.05;    // scale of the weights
 constexpr double least_facing = 0.7;  // cosine between the normals
-// One sigma of a residual. Neighbouring points share their faults, so that this is worse than a point's own.
-constexpr double sigma_m = 0.04;
-
-class Sum {
- public:
-  explicit Sum(PairNormal& normal) : normal_(normal) {}
-
-  // One residual along (n_x, n_y) at p. `off_m`: what its weight goes by.
-  void add(double n_x, double n_y, const Point2& p, double residual_m, double off_m) {
-    const double ratio = 1.0 + off_m * off_m / (outlier_m * outlier_m);
-    const double weight = 1.0 / (sigma_m * sigma_m * ratio * ratio);
-    const double n_theta = n_y * p.x_m - n_x * p.y_m;
-    const double j[3] = {n_x, n_y, n_theta};
-    for (int row = 0; row < 3; ++row) {
-      normal_.gradient[row] += weight * residual_m * j[row];
-      for (int col = 0; col <= row; ++col) normal_.hessian(row, col) += weight * j[row] * j[col];
-    }
-  }
-
- private:
-  PairNormal& normal_;
-};
 
 }  // namespace
 
 PairNormal point_to_line(const ScanView& fixed, const ScanView& moving, const Pose2& T_fixed_moving,
                          double gate_m) {
   PairNormal normal;
-  Sum sum(normal);
+  ResidualSum sum(normal);
   const double c = std::cos(T_fixed_moving.theta_rad);
   const double s = std::sin(T_fixed_moving.theta_rad);
   for (const SurfacePoint& point : moving.points()) {

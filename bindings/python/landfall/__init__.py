@@ -39,7 +39,11 @@ from landfall._landfall import (
     SearchOptions,
     SearchResult,
     Sensor,
+    Slam,
+    SlamOptions,
+    SlamStep,
     StageTimes,
+    SwarmOptions,
     WallMap,
     Window,
     active_executor,
@@ -89,6 +93,7 @@ from landfall.errors import (
     UnknownOption,
 )
 from landfall.logs import load_log, make_scans
+from landfall.scan_mapping import SlamResult, slam
 from landfall.searching import search
 
 try:
@@ -128,7 +133,12 @@ __all__ = [
     "SearchOptions",
     "SearchResult",
     "Sensor",
+    "Slam",
+    "SlamOptions",
+    "SlamResult",
+    "SlamStep",
     "StageTimes",
+    "SwarmOptions",
     "TooLarge",
     "UnknownName",
     "UnknownOption",
@@ -169,6 +179,7 @@ __all__ = [
     "search",
     "simulate",
     "simulate_ranges",
+    "slam",
     "transform_library",
     "translation_distance",
     "wrap_angle",

@@ -5,6 +5,7 @@
 
 #include "landfall/grid_map.hpp"
 #include "landfall/scan.hpp"
+#include "landfall/slam.hpp"
 
 namespace landfall {
 
