@@ -67,10 +67,14 @@ def slam(
 
 
 def slam_options(**options: Unpack[SlamKeywords]) -> SlamOptions:
-    """Raises UnknownOption, UnknownName."""
+    """Raises UnknownOption, UnknownName, InvalidArgument."""
     made = SlamOptions()
     for name, value in options.items():
         if name not in OPTION_NAMES:
             raise UnknownOption(f"slam: unknown option '{name}'; known: {', '.join(OPTION_NAMES)}")
-        setattr(made, name, value)
+        try:
+            setattr(made, name, value)
+        except TypeError:
+            expected = type(getattr(made, name)).__name__
+            raise InvalidArgument(f"slam: option {name} is {value!r}, expected {expected}") from None
     return made

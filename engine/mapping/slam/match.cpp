@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/align/residual_sum.hpp"
 #include "engine/mapping/slam/rigid.hpp"
 #include "engine/methods/pso/swarm.hpp"
 #include "kernels/count_fits.hpp"
@@ -12,8 +13,10 @@ namespace {
 
 // Of all surface points, so many must meet something known for a match to say anything.
 constexpr double least_overlap = 0.25;
-// The predicted pose is preferred unless the swarm's has more points on surfaces than this times its own.
-constexpr double clearly_more = 1.02;
+// The predicted pose is preferred unless the swarm's fits better than by this share.
+constexpr double clearly_better = 0.01;
+constexpr double on_surface_m = 0.1;
+constexpr double far_m = 1.0;
 
 // Data_fit: end points in occupied cells.
 class FitCounter {
@@ -47,14 +50,21 @@ Match judge(const MapSoFar& map, const PreparedScan& scan, const Pose2& T_map_ro
   Match match{.T_map_robot = T_map_robot};
   const Rigid to_map(T_map_robot);
   int in_free_space = 0;
+  int points = 0;
+  double misfit = 0.0;
   for (const SurfacePoint& point : scan.surfaces) {
     if (!point.has_normal) continue;
     const Point2 p_map = to_map.point(point.p);
-    if (map.surfaces.holds(p_map, to_map.direction(point.normal)))
+    ++points;
+    const double off_m = map.surfaces.distance(p_map, to_map.direction(point.normal)).value_or(far_m);
+    const double squared = off_m * off_m;
+    misfit += squared / (squared + ResidualSum::outlier_m * ResidualSum::outlier_m);
+    if (off_m <= on_surface_m)
       ++match.on_surfaces;
     else if (map.grid.at(map.grid.cell_of(p_map)) == Occupancy::free)
       ++in_free_space;
   }
+  match.misfit = misfit / std::max(1, points);
   const int known = match.on_surfaces + in_free_space;
   match.agreement = known == 0 ? 0.0 : static_cast<double>(match.on_surfaces) / known;
   match.fit = FitCounter(map.grid, scan).at(T_map_robot) / std::max(1.0, static_cast<double>(scan.valid()));
@@ -81,7 +91,7 @@ Match match_by_swarm(const MapSoFar& map, const PreparedScan& scan, const Pose2&
   if (!options.refine) return judge(map, scan, T_map_best);
   const Match by_swarm = refined(map, scan, T_map_best);
   const Match by_prediction = refined(map, scan, T_map_predicted);
-  return by_swarm.on_surfaces > clearly_more * by_prediction.on_surfaces ? by_swarm : by_prediction;
+  return by_swarm.misfit < (1.0 - clearly_better) * by_prediction.misfit ? by_swarm : by_prediction;
 }
 
 }  // namespace landfall::internal

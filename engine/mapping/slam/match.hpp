@@ -20,6 +20,7 @@ struct Match {
   double fit = 0.0;        // share of the valid echoes in occupied cells
   double agreement = 0.0;  // share, of the surface points that meet something known, that lie on surfaces
   int on_surfaces = 0;
+  double misfit = 1.0;  // mean over the surface points, 0 on a surface, 1 far from all
 };
 
 // How a scan lies from there.

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double square_m = 0.1;
 constexpr double least_facing = 0.7;  // cosine between normals of one surface
-constexpr int most_iterations = 12;
+constexpr int most_iterations = 20;
 constexpr double first_gate_m = 0.25;
 constexpr double last_gate_m = 0.12;
-constexpr double gate_decay = 0.7;
+constexpr double gate_decay = 0.85;
 constexpr double settled = 2e-5;  // metres and radians
-constexpr double on_surface_m = 0.1;
+constexpr double join_m = 0.075;
 constexpr double forget_m = 0.05;
 // How far the start may be off where no surface tells.
 constexpr double start_sigma_m = 0.2;
@@ -50,23 +50,31 @@ void SurfaceMap::add_scan(std::span<const SurfacePoint> points_robot, const Pose
     if (point.has_normal) add(to_map.point(point.p), to_map.direction(point.normal));
 }
 
+void SurfaceMap::Surface::add(const Point2& p_map, const Point2& normal_map) {
+  ++count;
+  mean.x_m += (p_map.x_m - mean.x_m) / count;
+  mean.y_m += (p_map.y_m - mean.y_m) / count;
+  normal_sum.x_m += normal_map.x_m;
+  normal_sum.y_m += normal_map.y_m;
+  const double length = std::hypot(normal_sum.x_m, normal_sum.y_m);
+  normal = {.x_m = normal_sum.x_m / length, .y_m = normal_sum.y_m / length};
+}
+
+// To the surface that is there already, in whichever square its mean lies: a wall near a border between
+// squares is one row of surfaces, not two that share its echoes.
 void SurfaceMap::add(const Point2& p_map, const Point2& normal_map) {
+  const std::int32_t known = nearest(p_map, normal_map, join_m);
+  if (known != none) {
+    surfaces_[static_cast<std::size_t>(known)].add(p_map, normal_map);
+    return;
+  }
   for (std::int32_t& slot : slots_[square_of(p_map)].surface) {
+    if (slot != none && surfaces_[static_cast<std::size_t>(slot)].count > 0) continue;
     if (slot == none) {
       slot = static_cast<std::int32_t>(surfaces_.size());
-      surfaces_.push_back({.mean = p_map, .normal = normal_map, .normal_sum = normal_map, .count = 1});
-      return;
+      surfaces_.emplace_back();
     }
-    Surface& surface = surfaces_[static_cast<std::size_t>(slot)];
-    if (surface.count > 0 && dot(surface.normal, normal_map) < least_facing) continue;
-    ++surface.count;
-    const double share = 1.0 / surface.count;
-    surface.mean.x_m += share * (p_map.x_m - surface.mean.x_m);
-    surface.mean.y_m += share * (p_map.y_m - surface.mean.y_m);
-    surface.normal_sum.x_m += normal_map.x_m;
-    surface.normal_sum.y_m += normal_map.y_m;
-    const double length = std::hypot(surface.normal_sum.x_m, surface.normal_sum.y_m);
-    surface.normal = {.x_m = surface.normal_sum.x_m / length, .y_m = surface.normal_sum.y_m / length};
+    surfaces_[static_cast<std::size_t>(slot)].add(p_map, normal_map);
     return;
   }
 }
@@ -83,10 +91,9 @@ void SurfaceMap::forget(std::span<const Point2> points_map) {
   }
 }
 
-const SurfaceMap::Surface* SurfaceMap::nearest(const Point2& p_map, const Point2& normal_map,
-                                               double gate_m) const {
+std::int32_t SurfaceMap::nearest(const Point2& p_map, const Point2& normal_map, double gate_m) const {
   const CellIndex center = square_of(p_map);
-  const Surface* best = nullptr;
+  std::int32_t best = none;
   double best_squared = gate_m * gate_m;
   for (int row = center.row - 1; row <= center.row + 1; ++row)
     for (int col = center.col - 1; col <= center.col + 1; ++col)
@@ -99,7 +106,7 @@ const SurfaceMap::Surface* SurfaceMap::nearest(const Point2& p_map, const Point2
         const double squared = dx * dx + dy * dy;
         if (squared >= best_squared) continue;
         best_squared = squared;
-        best = &surface;
+        best = slot;
       }
   return best;
 }
@@ -133,19 +140,21 @@ PairNormal SurfaceMap::linearise(std::span<const SurfacePoint> points_robot, con
   for (const SurfacePoint& point : points_robot) {
     if (!point.has_normal) continue;
     const Point2 p_map = to_map.point(point.p);
-    const Surface* surface = nearest(p_map, to_map.direction(point.normal), gate_m);
-    if (surface == nullptr) continue;
-    const double residual_m = surface->distance(p_map);
+    const std::int32_t near = nearest(p_map, to_map.direction(point.normal), gate_m);
+    if (near == none) continue;
+    const Surface& surface = surfaces_[static_cast<std::size_t>(near)];
+    const double residual_m = surface.distance(p_map);
     const Point2 p_about{.x_m = p_map.x_m - T_map_robot.x_m, .y_m = p_map.y_m - T_map_robot.y_m};
-    sum.add(surface->normal.x_m, surface->normal.y_m, p_about, residual_m, residual_m);
+    sum.add(surface.normal.x_m, surface.normal.y_m, p_about, residual_m, residual_m);
   }
   normal.hessian.triangularView<Eigen::StrictlyUpper>() = normal.hessian.transpose();
   return normal;
 }
 
-bool SurfaceMap::holds(const Point2& p_map, const Point2& normal_map) const {
-  const Surface* surface = nearest(p_map, normal_map, 1.5 * square_m);
-  return surface != nullptr && std::abs(surface->distance(p_map)) <= on_surface_m;
+std::optional<double> SurfaceMap::distance(const Point2& p_map, const Point2& normal_map) const {
+  const std::int32_t near = nearest(p_map, normal_map, 1.5 * square_m);
+  if (near == none) return std::nullopt;
+  return std::abs(surfaces_[static_cast<std::size_t>(near)].distance(p_map));
 }
 
 }  // namespace landfall::internal

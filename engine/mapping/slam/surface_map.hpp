@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,9 @@ class SurfaceMap {
 
   // Gauss-Newton from a start; where surfaces do not say (along a corridor), the pose stays near it.
   [[nodiscard]] Pose2 refine(std::span<const SurfacePoint> points_robot, const Pose2& T_map_start) const;
-  // A surface that faces the same way runs through here.
-  [[nodiscard]] bool holds(const Point2& p_map, const Point2& normal_map) const;
+  // How far the nearest surface that faces the same way runs from here, without sign; nothing where none is
+  // near.
+  [[nodiscard]] std::optional<double> distance(const Point2& p_map, const Point2& normal_map) const;
   [[nodiscard]] std::size_t memory_bytes() const {
     return slots_.memory_bytes() + surfaces_.capacity() * sizeof(Surface);
   }
@@ -37,6 +39,7 @@ class SurfaceMap {
     Point2 normal_sum;  // of the points'
     int count = 0;
 
+    void add(const Point2& p_map, const Point2& normal_map);
     // Along the normal.
     [[nodiscard]] double distance(const Point2& p_map) const {
       return normal.x_m * (p_map.x_m - mean.x_m) + normal.y_m * (p_map.y_m - mean.y_m);
@@ -51,8 +54,8 @@ class SurfaceMap {
   void add(const Point2& p_map, const Point2& normal_map);
   [[nodiscard]] PairNormal linearise(std::span<const SurfacePoint> points_robot, const Pose2& T_map_robot,
                                      double gate_m) const;
-  // The nearest that faces the same way, within the gate; nullptr where there is none.
-  [[nodiscard]] const Surface* nearest(const Point2& p_map, const Point2& normal_map, double gate_m) const;
+  // The nearest that faces the same way, within the gate; none where there is none.
+  [[nodiscard]] std::int32_t nearest(const Point2& p_map, const Point2& normal_map, double gate_m) const;
 
   GrowingArray<Slots> slots_;
   std::vector<Surface> surfaces_;
