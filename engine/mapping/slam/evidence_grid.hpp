@@ -59,7 +59,7 @@ class EvidenceGrid {
   void protect(std::span<const EchoRay> rays);
   void protect_around(const Point2& p_map, int radius_cells);
   void miss_along(const EchoRay& ray);
-  void miss(CellIndex cell, Cell& value, bool near);
+  void miss(Cell& value, const EchoRay& ray);
   [[nodiscard]] bool is_occupied(const Cell& cell) const { return cell.evidence >= occupied_; }
   void mark(CellIndex cell, bool occupied);
   [[nodiscard]] CellBox known_box() const;

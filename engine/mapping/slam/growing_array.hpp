@@ -37,6 +37,11 @@ class GrowingArray {
   [[nodiscard]] std::ptrdiff_t index(CellIndex cell) const {
     return static_cast<std::ptrdiff_t>(cell.row - first_.row) * width_ + (cell.col - first_.col);
   }
+  // The inverse, for a cell that is held.
+  [[nodiscard]] CellIndex cell_at(std::ptrdiff_t index) const {
+    return {.col = first_.col + static_cast<int>(index % width_),
+            .row = first_.row + static_cast<int>(index / width_)};
+  }
   // Of a cell that is held.
   [[nodiscard]] T& operator[](CellIndex cell) { return values_[static_cast<std::size_t>(index(cell))]; }
   [[nodiscard]] const T& operator[](CellIndex cell) const {
