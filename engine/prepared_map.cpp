@@ -80,6 +80,10 @@ std::shared_ptr<const MapSpectra> PreparedState::field_spectra(int reach_cells) 
   return spectra;
 }
 
+const OccupiedBits& PreparedState::occupied_bits() const {
+  return occupied_bits_.get([this] { return internal::occupied_bits(grid_); });
+}
+
 const WallMap& PreparedState::walls() const {
   return plan_ ? *plan_ : walls_.get([this] { return to_walls(grid_); });
 }
@@ -141,6 +145,7 @@ std::size_t PreparedState::memory_bytes() const {
   if (const auto* table = coarse_bound_table_.if_built()) bytes += table->memory_bytes();
   if (const auto* grid = corrected_grid_.if_built()) bytes += grid->capacity();
   if (const auto* grid = uncorrected_grid_.if_built()) bytes += grid->capacity();
+  if (const auto* bits = occupied_bits_.if_built()) bytes += 4 * bits->words.capacity();
   if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();

@@ -11,6 +11,7 @@
 #include "engine/block_mask.hpp"
 #include "engine/methods/fft/map_spectra.hpp"
 #include "engine/methods/grid/global_grid.hpp"
+#include "engine/methods/pso/occupied_bits.hpp"
 #include "engine/search_tables.hpp"
 #include "engine/tile_layout.hpp"
 #include "landfall/prepared_map.hpp"
@@ -59,6 +60,8 @@ class PreparedState {
   [[nodiscard]] const std::vector<std::int8_t>& reduced_grid(int factor) const;
   // The field's, for end points that are up to reach_cells away from the robot's cell along either axis.
   [[nodiscard]] std::shared_ptr<const MapSpectra> field_spectra(int reach_cells) const;
+  // Of method `pso`.
+  [[nodiscard]] const OccupiedBits& occupied_bits() const;
   [[nodiscard]] const WallMap& walls() const;
   // Made from a floor plan, whose walls are exact.
   [[nodiscard]] bool is_plan() const { return plan_.has_value(); }
@@ -81,6 +84,7 @@ class PreparedState {
   Lazy<BoundTable> coarse_bound_table_;
   Lazy<std::vector<std::int8_t>> corrected_grid_;
   Lazy<std::vector<std::int8_t>> uncorrected_grid_;
+  Lazy<OccupiedBits> occupied_bits_;
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
   mutable std::mutex reduced_mutex_;

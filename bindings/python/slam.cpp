@@ -1,4 +1,4 @@
-// Mapping without odometry.
+// Mapping without odometry, and scans matched without a map.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "arguments.hpp"
 #include "bindings.hpp"
 #include "landfall/error.hpp"
+#include "landfall/match_scans.hpp"
 #include "landfall/slam.hpp"
 
 namespace landfall::python {
@@ -33,7 +35,7 @@ auto value_of(const Names& names, const std::string& name, const char* option) {
     known += (known.empty() ? "" : ", ") + std::string(text);
   }
   throw Error(ErrorCode::unknown_name,
-              std::string("slam: ") + option + " is \"" + name + "\", expected one of " + known);
+              std::string(option) + " is \"" + name + "\", expected one of " + known);
 }
 
 template <class Names, class Value>
@@ -102,9 +104,40 @@ void bind_step(nb::module_& module) {
       .def_ro("insert_ms", &SlamStep::insert_ms);
 }
 
+constexpr std::array scan_matchers{std::pair{"icp", ScanMatcher::icp},
+                                   std::pair{"icp_point_to_line", ScanMatcher::icp_point_to_line},
+                                   std::pair{"angle_histogram", ScanMatcher::angle_histogram}};
+
+void bind_match_scans(nb::module_& module) {
+  const ScanMatchOptions defaults;
+  module.def(
+      "match_scans",
+      [](const Scan& before, const Scan& after, const PoseArgument& T_before_start,
+         const std::string& matcher, double range_min_m, double reach_m, double reach_rad, int iterations,
+         double bin_m, double bin_rad) {
+        const ScanMatchOptions options{.matcher = value_of(scan_matchers, matcher, "matcher"),
+                                       .range_min_m = range_min_m,
+                                       .reach_m = reach_m,
+                                       .reach_rad = reach_rad,
+                                       .iterations = iterations,
+                                       .bin_m = bin_m,
+                                       .bin_rad = bin_rad};
+        const nb::gil_scoped_release released;
+        return match_scans(before, after, T_before_start, options);
+      },
+      "before"_a, "after"_a, "T_before_start"_a = PoseArgument{}, nb::kw_only(), "matcher"_a = "icp",
+      "range_min_m"_a = defaults.range_min_m, "reach_m"_a = defaults.reach_m,
+      "reach_rad"_a = defaults.reach_rad, "iterations"_a = defaults.iterations, "bin_m"_a = defaults.bin_m,
+      "bin_rad"_a = defaults.bin_rad,
+      "T_before_after: where the later scan was taken, in the earlier one's robot frame, from a start near "
+      "it.\n"
+      "matcher: \"icp\", \"icp_point_to_line\" or \"angle_histogram\". Raises InvalidArgument, UnknownName.");
+}
+
 }  // namespace
 
 void bind_slam(nb::module_& module) {
+  bind_match_scans(module);
   bind_options(module);
   bind_step(module);
   nb::class_<Slam>(

@@ -9,7 +9,7 @@
 
 #include "engine/mapping/slam/check.hpp"
 #include "engine/mapping/slam/match.hpp"
-#include "engine/mapping/slam/rigid.hpp"
+#include "engine/rigid.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {

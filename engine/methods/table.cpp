@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view default_method = "branch_and_bound";
 
-constexpr std::array<Method, 8> table{{
+constexpr std::array<Method, 12> table{{
     {.info = {.name = "exhaustive",
               .summary = "scores every pose of the prior's lattice; the oracle",
               .source = ""},
@@ -61,6 +61,27 @@ constexpr std::array<Method, 8> table{{
      .propose = propose_fsdn,
      .samples = true,
      .refines_by_ranges = true},
+    {.info = {.name = "pso",
+              .summary =
+                  "particle swarms, scan to the map's cells: tracking, or the whole map by many swarms",
+              .source = "Okada & Fujimoto"},
+     .propose = propose_pso,
+     .samples = true},
+    {.info = {.name = "icp",
+              .summary = "iterative closest point, point to point, from a close prior",
+              .source = "Besl & McKay 1992"},
+     .propose = propose_icp,
+     .samples = true},
+    {.info = {.name = "icp_point_to_line",
+              .summary = "iterative closest point along the map's normals, from a close prior",
+              .source = "Chen & Medioni 1992"},
+     .propose = propose_icp_point_to_line,
+     .samples = true},
+    {.info = {.name = "angle_histogram",
+              .summary = "cross-correlated histograms of angles, then of x and y, from a close prior",
+              .source = "Weiss, Wetzler & von Puttkamer 1994"},
+     .propose = propose_angle_histogram,
+     .samples = true},
 }};
 
 }  // namespace

@@ -30,5 +30,9 @@ Proposal propose_grid_turned(const Query& query);
 Proposal propose_fft(const Query& query);
 Proposal propose_sdn(const Query& query);
 Proposal propose_fsdn(const Query& query);
+Proposal propose_pso(const Query& query);
+Proposal propose_icp(const Query& query);
+Proposal propose_icp_point_to_line(const Query& query);
+Proposal propose_angle_histogram(const Query& query);
 
 }  // namespace landfall::internal

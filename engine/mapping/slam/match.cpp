@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/align/residual_sum.hpp"
-#include "engine/mapping/slam/rigid.hpp"
+#include "engine/rigid.hpp"
 #include "engine/methods/pso/swarm.hpp"
 #include "kernels/count_fits.hpp"
 

@@ -1,0 +1,43 @@
+// Iterative closest point (equation 1 of Okada & Fujimoto; Besl & McKay 1992, A Method for Registration of
+// 3-D Shapes; point to line: Chen & Medioni 1992). Closest points from nanoflann's k-d tree.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "landfall/pose2.hpp"
+
+namespace landfall::internal {
+
+struct IcpOptions {
+  bool to_line = false;
+  int iterations = 50;
+  double reach_m = 0.5;  // points farther apart are not matched
+};
+
+struct IcpAnswer {
+  Pose2 T_fixed_moving;
+  int matched = 0;      // of the moving points
+  double mean_m = 0.0;  // distance of those, root mean square
+  int iterations = 0;
+};
+
+// The points that others are matched to, with the normals of the lines through their neighbours.
+class IcpTarget {
+ public:
+  explicit IcpTarget(std::vector<Point2> points, bool with_normals);
+  ~IcpTarget();
+  IcpTarget(IcpTarget&&) noexcept;
+  IcpTarget& operator=(IcpTarget&&) noexcept;
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] IcpAnswer match(std::span<const Point2> moving, const Pose2& T_fixed_start,
+                                const IcpOptions& options) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace landfall::internal
