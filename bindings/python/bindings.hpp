@@ -17,6 +17,7 @@ void bind_correlation(nanobind::module_& module);
 void bind_grid_matching(nanobind::module_& module);
 void bind_diffusion(nanobind::module_& module);
 void bind_logs(nanobind::module_& module);
+void bind_sonar_mapping(nanobind::module_& module);
 void bind_files(nanobind::module_& module);
 
 }  // namespace landfall::python

@@ -20,5 +20,6 @@ NB_MODULE(_landfall, module) {
   bind_grid_matching(module);
   bind_diffusion(module);
   bind_logs(module);
+  bind_sonar_mapping(module);
   bind_files(module);
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view default_method = "branch_and_bound";
 
-constexpr std::array<Method, 12> table{{
+constexpr std::array<Method, 14> table{{
     {.info = {.name = "exhaustive",
               .summary = "scores every pose of the prior's lattice; the oracle",
               .source = ""},
