@@ -11,10 +11,11 @@ import typer
 
 from landfall._landfall import Pose2, Scan, load_trajectory, map_from_known_poses, save_grid_map
 from landfall.commands.options import LogFile, SensorFile, read_log
+from landfall.commands.sonar_maps import SONAR_METHODS, SonarSettings
 from landfall.errors import InvalidArgument, UnknownName
 from landfall.outputs import require_writable
 
-METHODS = ("known-poses",)
+METHODS = ("known-poses", *SONAR_METHODS)
 POSE_TOLERANCE_S = 0.02
 
 
@@ -25,25 +26,49 @@ def run(
     poses: Annotated[
         Path | None, typer.Option("--poses", help="TUM trajectory of T_map_robot instead of the log's poses.")
     ] = None,
+    odometry: Annotated[
+        bool, typer.Option("--odometry", help="Take the log's odometry for poses, drift and all.")
+    ] = False,
     resolution_m: Annotated[float, typer.Option("--resolution-m", help="Cell size.")] = 0.05,
     range_max_m: Annotated[
         float, typer.Option("--range-max-m", help="Longer echoes free their first metres only; 0: no limit.")
     ] = 0.0,
     from_index: Annotated[int, typer.Option("--from-index", help="First scan.")] = 0,
     to_index: Annotated[int | None, typer.Option("--to-index", help="One past the last scan.")] = None,
+    bounding_box: Annotated[
+        bool, typer.Option("--bounding-box", help="tbf: correct readings to the box of the facing sonars.")
+    ] = False,
+    connect_walls: Annotated[
+        bool, typer.Option("--connect-walls", help="tbf: join segments that line up, drop what is on none.")
+    ] = False,
+    window_scans: Annotated[
+        int, typer.Option("--window-scans", help="tbf: scans that a reading's partners are sought in.")
+    ] = 50,
     sensor: SensorFile = None,
 ) -> None:
-    """An occupancy grid from scans whose poses are known: corrected logs, a localizer's tf, or --poses."""
+    """An occupancy grid from scans whose poses are known: corrected logs, a localizer's tf, or --poses.
+
+    known-poses takes lasers; tbf, sonar-grid and end-points take sonars.
+    """
     if method not in METHODS:
         raise UnknownName(f"--method {method}: unknown; known: {', '.join(METHODS)}")
     require_writable(out)
     scans = read_log(log, sensor).scans[from_index:to_index]
     if poses is not None:
         set_poses(scans, load_trajectory(poses))
+    elif odometry:
+        for scan in scans:
+            scan.T_map_robot = scan.T_odom_robot
     located = [scan for scan in scans if scan.T_map_robot is not None]
     if not located:
-        raise InvalidArgument(f"{log}: none of {len(scans)} scans has a known pose: give --poses")
-    grid = map_from_known_poses(located, resolution_m=resolution_m, range_max_m=range_max_m)
+        raise InvalidArgument(
+            f"{log}: none of {len(scans)} scans has a known pose: give --poses or --odometry"
+        )
+    if method in SONAR_METHODS:
+        settings = SonarSettings(resolution_m, window_scans, bounding_box, connect_walls)
+        grid = SONAR_METHODS[method](located, settings)
+    else:
+        grid = map_from_known_poses(located, resolution_m=resolution_m, range_max_m=range_max_m)
     save_grid_map(grid, out)
     print(f"{out}: {grid.width_cells} x {grid.height_cells} cells from {len(located)} of {len(scans)} scans")
 

@@ -108,7 +108,7 @@ def _ray_echoes(map: PreparedMap, rays: np.ndarray) -> tuple[np.ndarray, np.ndar
 def _meet(map: PreparedMap, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """How far a wall is, and where its normal (towards the ray's origin) points; nan where it has none."""
     aside_rad = 1e-3
-    aside = rays + (0.0, 0.0, aside_rad)
+    aside = rays + np.array([0.0, 0.0, aside_rad])
     length, beside = _cast(map, rays), _cast(map, aside)
     with np.errstate(invalid="ignore"):
         dx = beside * np.cos(aside[:, 2]) - length * np.cos(rays[:, 2])
@@ -161,7 +161,10 @@ def _point_echoes(
     most_m: float,
     share_seen: float,
 ) -> np.ndarray:
-    """Range to a round target in sight, inf elsewhere. share_seen: of its half-width that may be off the cone."""
+    """Range to a round target in sight, inf elsewhere.
+
+    share_seen: of its half-width that may be off the cone.
+    """
     x, y = target.T[0] - mounts[:, 0], target.T[1] - mounts[:, 1]
     distance = np.hypot(x, y)
     bearing_rad = np.arctan2(y, x)
