@@ -34,12 +34,13 @@ FIELD_SIGMA_M = 0.1
 
 def composites(scans: Sequence[Scan], rng: np.random.Generator) -> list[tuple[Pose2, Scan]]:
     """Truth and composite scan, its relative poses from drifting odometry."""
-    T_odom_robot = _odometry([scan.T_map_robot for scan in scans], rng)
+    T_map_robot = [scan.T_map_robot or Pose2() for scan in scans]  # all are set
+    T_odom_robot = _odometry(T_map_robot, rng)
     length, every = round(COMPOSITE_M / STEP_M), round(QUESTION_M / STEP_M)
     asked = []
     for last in range(length, len(scans), every):
         part = slice(last - length, last + 1, THIN)
-        asked.append((scans[last].T_map_robot, merge(list(scans[part]), T_odom_robot[part])))
+        asked.append((T_map_robot[last], merge(list(scans[part]), T_odom_robot[part])))
     return asked
 
 

@@ -36,7 +36,7 @@ def draw_maps(
     box = _box(maps, T_map_robot)
     rows = -(-len(maps) // cols)
     height = PANEL_IN * (box[3] - box[2]) / (box[1] - box[0])
-    figure = Figure(figsize=(PANEL_IN * cols, rows * (height + 0.45)), layout="constrained")
+    figure = Figure(figsize=(PANEL_IN * cols, rows * (height + 0.6) + 0.1), layout="constrained")
     panels = np.atleast_1d(figure.subplots(rows, cols)).ravel()
     for axes, (title, grid) in zip(panels, maps.items(), strict=False):
         draw_map(axes, grid, box, PANEL_IN)

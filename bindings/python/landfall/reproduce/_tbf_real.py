@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from landfall._landfall import GridMap
+from landfall._landfall import GridMap, Pose2
 from landfall.logs import load_log
 from landfall.reproduce._map_scores import occupied_points
 from landfall.reproduce._sonar_maps import LABELS, make_maps
@@ -31,7 +31,7 @@ def corridor8(out: Path) -> dict | None:
     scans = load_log(path).scans
     for scan in scans:
         scan.T_map_robot = scan.T_odom_robot
-    poses = np.array([list(scan.T_map_robot) for scan in scans])
+    poses = np.array([list(scan.T_odom_robot or Pose2()) for scan in scans])
     maps = make_maps(scans)
     fits = {name: wall_fit(grid, poses) for name, grid in maps.items()}
     result: dict = {name: fit.numbers() for name, fit in fits.items()}

@@ -27,6 +27,12 @@ WINDOW_SEEDS = 5  # of the seeds: how map and cost depend on the window
 PERSON_STEP_M = 0.06  # a scan, towards the robot
 PERSON_OFF_M = 0.35  # from the left wall
 CIRCLE = (("raw", "fft"), ("tbf", "fft"), ("tbf_box", "fft"), ("tbf", "grid"))
+CIRCLE_LABELS = {
+    "raw_fft": "sonars located in the raw map: fft, anywhere",
+    "tbf_fft": "sonars located in the TBF map: fft, anywhere",
+    "tbf_box_fft": "sonars located in the map of TBF + box: fft, anywhere",
+    "tbf_grid": "sonars located in the TBF map: grid, within 0.8 m and 45 degrees",
+}
 
 
 @dataclass
@@ -53,6 +59,7 @@ def make_drive(seed: int) -> Drive:
 def run(seed: int, seeds: int, out: Path) -> dict:
     """The JSON object; pictures under `out`."""
     from landfall.reproduce._tbf_real import corridor8
+    from landfall.reproduce._tbf_scitos import scitos24
 
     scores: dict[str, list[dict[str, float]]] = {}
     windows: dict[int, list[dict[str, float]]] = {}
@@ -72,11 +79,17 @@ def run(seed: int, seeds: int, out: Path) -> dict:
     result["least"] = {name: _least(rows) for name, rows in scores.items()}
     result["windows"] = {str(scans): _mean(rows) for scans, rows in windows.items()}
     result["readings_per_s"] = result["windows"]["50"]["readings_per_s"]
+    result["box_raises_coverage"] = float(
+        np.mean(
+            [b["coverage"] > a["coverage"] for a, b in zip(scores["tbf"], scores["tbf_box"], strict=True)]
+        )
+    )
     result["circle"] = {name: _shares(answers) for name, answers in circle.items()}
     result |= {"seed": seed, "seeds": seeds}
     assert first is not None
     result["pictures"] = _draw(*first, out)
     result["corridor8"] = corridor8(out)
+    result["scitos24"] = scitos24(out)
     return result
 
 
@@ -132,44 +145,40 @@ def _least(rows: Sequence[dict[str, float]]) -> dict[str, float]:
 
 
 def table(result: dict) -> list[list[str]]:
-    """Every map's walls and artefacts, header first."""
-    raw = result["raw"]["artefacts_per_m2"]
-    rows = [["map", "walls found", "worst seed", "artefacts / m2", "of raw", "worst seed"]]
+    """Header first: maps, windows, and drives that locate themselves in the maps."""
+    rows = [["", "share", "worst seed", "artefacts / m2", "of raw", "worst seed", "readings / s"]]
     for name, label in LABELS.items():
-        mean, least = result[name], result["least"][name]
+        least = result["least"][name]
         rows.append(
             [
-                label,
-                _percent(mean["coverage"]),
+                f"walls found: {label}",
+                _percent(result[name]["coverage"]),
                 _percent(least["coverage"]),
-                f"{mean['artefacts_per_m2']:.2f}",
-                _percent(mean["artefacts_per_m2"] / raw),
+                *_artefacts(result, result[name]),
                 f"{least['artefacts_per_m2']:.2f}",
+                "",
             ]
         )
-    return rows
-
-
-def window_table(result: dict) -> list[list[str]]:
-    rows = [["window [scans]", "walls found", "artefacts / m2", "readings / s"]]
     for scans, mean in result["windows"].items():
         rows.append(
             [
-                scans,
+                f"walls found: TBF, window of {scans} scans",
                 _percent(mean["coverage"]),
-                f"{mean['artefacts_per_m2']:.2f}",
+                "",
+                *_artefacts(result, mean),
+                "",
                 f"{mean['readings_per_s']:.0f}",
             ]
         )
-    return rows
-
-
-def circle_table(result: dict) -> list[list[str]]:
-    rows = [["map, method", "right", "within 1 m", "found", "found but wrong"]]
     for name, shares in result["circle"].items():
-        kinds = ("success", "within_a_metre", "found", "found_but_wrong")
-        rows.append([name.replace("_", " "), *(_percent(shares[kind]) for kind in kinds)])
+        rows.append([CIRCLE_LABELS[name], _percent(shares["success"]), *[""] * 5])
     return rows
+
+
+def _artefacts(result: dict, mean: dict[str, float]) -> list[str]:
+    """Per square metre, and beside those of the raw map of all seeds."""
+    share = mean["artefacts_per_m2"] / max(result["raw"]["artefacts_per_m2"], 1e-9)
+    return [f"{mean['artefacts_per_m2']:.2f}", _percent(share)]
 
 
 def _draw(here: Drive, maps: dict[str, GridMap], out: Path) -> list[str]:
