@@ -12,6 +12,7 @@ namespace landfall::internal {
 namespace {
 
 constexpr double most_independent = 20.0;
+constexpr double least_product = 1e-200;
 
 }  // namespace
 
@@ -108,12 +109,16 @@ double BeamModel::log_likelihood(const Pose2& T_map_robot, std::span<const float
   std::array<double, std::size(qualities)> logs{};
   for (std::size_t q = 0; q < logs.size(); ++q) {
     double sum = 0.0;
+    double product = 1.0;  // logarithms are slow
     for (std::size_t i = 0; i < readings_.size(); ++i) {
       const double one = likelihood(readings_[i], simulated_m[i], spacing, qualities[q]);
       const bool nothing_before = simulated_m[i] > readings_[i].range_m;
-      sum += std::log(unknown[i] && nothing_before ? std::max(one, 1.0 / spread_m_) : one);
+      product *= unknown[i] && nothing_before ? std::max(one, 1.0 / spread_m_) : one;
+      if (product > least_product && product < 1.0 / least_product) continue;
+      sum += std::log(product);
+      product = 1.0;
     }
-    logs[q] = qualities[q].log_prior + weight_of_each() * sum;
+    logs[q] = qualities[q].log_prior + weight_of_each() * (sum + std::log(product));
   }
   const double best = *std::max_element(logs.begin(), logs.end());
   double total = 0.0;

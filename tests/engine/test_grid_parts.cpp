@@ -23,6 +23,8 @@ using internal::LocalModel;
 using testing::Dice;
 
 using Cells = std::vector<CellIndex>;
+constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;
+
 using CellSet = std::set<std::pair<int, int>>;  // (row, col)
 
 CellSet set_of(const Cells& cells) {
@@ -114,7 +116,7 @@ TEST(GridCone, ArcsAreEightConnectedAndOneCellThick) {
     for (std::size_t k = 2; k < arc.size(); ++k) EXPECT_GE(apart(k, k - 2), 2);
     for (const CellIndex cell : arc) {
       const double distance = std::hypot(cell.col - cone.mount_x_cells, cell.row - cone.mount_y_cells);
-      EXPECT_NEAR(distance, cone.range_cells + 0.5, 0.5 * std::numbers::sqrt2 + 1e-9);
+      EXPECT_NEAR(distance, cone.range_cells + half_diagonal, half_diagonal + 1e-9);
     }
   }
 }
@@ -285,7 +287,8 @@ TEST(GridLocal, OrientedGridsAgreeWithTheModelAtEveryHeading) {
         const double angle =
             angle_distance(std::atan2(y - cone.mount_y_cells, x - cone.mount_x_cells), cone.axis_rad);
         const bool in_cone = angle <= cone.half_angle_rad + 0.75 / std::max(1.0, distance);
-        if (grid.weights[i] > 0) return in_cone && std::abs(distance - cone.range_cells - 0.5) <= 0.75;
+        if (grid.weights[i] > 0)
+          return in_cone && std::abs(distance - cone.range_cells - half_diagonal) <= 0.75;
         return std::hypot(x, y) <= 3.0 + 1e-9 || distance < 1.0 ||
                (in_cone && distance <= cone.range_cells + 0.3);
       });

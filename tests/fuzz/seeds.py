@@ -88,7 +88,7 @@ def seeds():
         "log": [CARMEN.encode(), gzip.compress(CARMEN.encode()), SCAN_LINES.encode(), CORRIDOR8, SCITOS24],
         "places": [
             b"kitchen: {polygon_map: [[0, 0], [4, 0], [4, 3]], theta_rad: 1, half_theta_rad: 0.5}\n",
-            b"entry:\n  T_map_robot: [1, 2, 1.5]\n  half_x_m: 0.8\n  half_y_m: 0.8\n  half_theta_rad: 0.785\n",
+            b"entry:\n  T_map_robot: [1, 2, 1.5]\n  half_x_m: 0.8\n  half_y_m: 0.8\n  half_theta_rad: 1\n",
         ],
         "prior": [json.dumps(prior).encode() for prior in PRIORS],
         "scan_lines": [SCAN_LINES.encode()],
