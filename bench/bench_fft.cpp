@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/places.hpp"
+#include "engine/methods/fft/bare_transforms.hpp"
 #include "engine/methods/fft/correlation_search.hpp"
 #include "engine/methods/fft/correlator.hpp"
 #include "engine/methods/fft/exact_blocks.hpp"
@@ -120,7 +121,8 @@ bool register_papers_volume(const Place& place) {
   const int cols = volume.transform_cols;
   add("bare_transforms/" + std::to_string(rows) + "x" + std::to_string(cols) + "x64",
       [rows, cols](benchmark::State& state) {
-        for (auto _ : state) benchmark::DoNotOptimize(time_bare_transforms(rows, cols, headings));
+        internal::BareTransforms transforms(rows, cols);
+        for (auto _ : state) transforms.run(headings);
       });
   return true;
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -108,21 +107,6 @@ CorrelationVolume correlation_volume(const GridMap& grid, std::span<const float>
                   grid.width_cells, grid.height_cells,
                   std::min(internal::reach_cells(points), std::max(grid.width_cells, grid.height_cells))));
   return internal::volume_of(spectra, points, lattice, options.threads);
-}
-
-double time_bare_transforms(int rows, int cols, int count) {
-  if (rows < 1 || cols < 2 || cols % 2 != 0 || count < 0)
-    throw Error(ErrorCode::invalid_argument, "transforms of " + std::to_string(rows) + " x " +
-                                                 std::to_string(cols) + ", expected rows and even columns");
-  const auto fft = internal::shared_fft(rows, cols);
-  internal::Plane plane(fft->reals());
-  internal::Spectrum spectrum(fft->bins());
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < count; ++i) {
-    fft->forward(plane, spectrum);
-    fft->inverse(spectrum, plane);
-  }
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::string_view transform_library() {

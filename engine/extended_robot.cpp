@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/turn_readings.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {
@@ -62,15 +63,6 @@ std::vector<std::size_t> local_minima(std::vector<TurnReading> readings, bool fu
   return minima;
 }
 
-void check_turn(std::span<const Scan> turn) {
-  for (std::size_t i = 0; i < turn.size(); ++i) {
-    validate(turn[i]);
-    if (turn[i].sensor != turn[0].sensor && !(*turn[i].sensor == *turn[0].sensor))
-      fail("turn: scan " + std::to_string(i) + " is of sensor '" + turn[i].sensor->name +
-           "', expected the first scan's");
-  }
-}
-
 int mask_side(std::span<const float> mask) {
   const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(mask.size()))));
   if (side % 2 == 0 || static_cast<std::size_t>(side) * static_cast<std::size_t>(side) != mask.size())
@@ -100,7 +92,7 @@ std::vector<float> convolved(const std::vector<float>& values, int width, int he
 }  // namespace
 
 std::vector<Scan> keep_local_minima(std::span<const Scan> turn, bool full_turn) {
-  check_turn(turn);
+  internal::check_turn(turn);
   std::vector<Scan> kept(turn.begin(), turn.end());
   const std::size_t beams = turn.empty() ? 0 : turn[0].ranges_m.size();
   for (std::size_t beam = 0; beam < beams; ++beam) {

@@ -11,6 +11,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "engine/methods/fft/bare_transforms.hpp"
 #include "landfall/correlation.hpp"
 #include "landfall/error.hpp"
 #include "landfall/extended_robot.hpp"
@@ -69,9 +70,13 @@ void bind_volume(nb::module_& module) {
              "All scores of method `fft`: the sum, over the scan's echoes, of the map's likelihood field "
              "where they end.\n"
              "values: (height, width), any numbers in place of the field. Raises InvalidArgument, TooLarge.");
-  module.def("time_bare_transforms", &time_bare_transforms, "rows"_a, "cols"_a, "count"_a,
-             nb::call_guard<nb::gil_scoped_release>(),
-             "Seconds of `count` transforms of such planes forth and as many back, in one thread.");
+  using internal::BareTransforms;
+  nb::class_<BareTransforms>(module, "BareTransforms",
+                             "Transforms of such planes and nothing else: what a correlation is measured "
+                             "against. Planned when made.")
+      .def(nb::init<int, int>(), "rows"_a, "cols"_a)
+      .def("run", &BareTransforms::run, "count"_a, nb::call_guard<nb::gil_scoped_release>(),
+           "So many transforms forth and as many back, in one thread.");
   module.def(
       "transform_library", [] { return std::string(transform_library()); },
       "\"fftw\" or \"eigen\": -DLANDFALL_FFT of the build.");
@@ -85,6 +90,19 @@ void bind_extended_robot(nb::module_& module) {
       "The scans of a turn on the spot with only those readings that are local minima along it, beam by\n"
       "beam; the others NaN. Of a run of equal readings below both its neighbours the middle is kept.\n"
       "full_turn: the first scan is the last one's neighbour. Raises InvalidArgument.");
+  const TurnMinimaOptions minima;
+  module.def(
+      "merge_turn_minima",
+      [](const std::vector<Scan>& turn, double equal_sigmas, int plateau_weight) {
+        return merge_turn_minima(turn, {.equal_sigmas = equal_sigmas, .plateau_weight = plateau_weight});
+      },
+      "turn"_a, nb::kw_only(), "equal_sigmas"_a = minima.equal_sigmas,
+      "plateau_weight"_a = minima.plateau_weight, nb::call_guard<nb::gil_scoped_release>(),
+      "The minimum filter over all sonars of a full turn together: what of it can be trusted, as one scan\n"
+      "from the turn's centre. Readings are interleaved by bearing. Those that range noise alone sets apart\n"
+      "over half a cone's width are one end point in the middle of their plateau; elsewhere a reading is "
+      "kept\n"
+      "where none within half a turn's step is shorter. Raises InvalidArgument.");
   module.def(
       "merge_turn", [](const std::vector<Scan>& turn) { return merge_turn(turn); }, "turn"_a,
       nb::call_guard<nb::gil_scoped_release>(),

@@ -1,15 +1,13 @@
-"""The volume of correlations, the minimum filter and masks from Python, and the paper's experiment."""
+"""The volume of correlations, the minimum filter and masks from Python."""
 
 from __future__ import annotations
 
-import json
 import math
 
 import landfall
 import numpy as np
 import pytest
 from landfall import Beam, GridMap, PreparedMap, Scan, Sensor
-from landfall.cli import main
 
 
 @pytest.fixture
@@ -91,15 +89,15 @@ def test_masks_blur_a_map(room: PreparedMap) -> None:
         landfall.blurred_map(room.grid, np.zeros((3, 5)))
 
 
-def test_the_papers_experiment(tmp_path, capsys) -> None:
-    assert main(["reproduce", "fft", "--seeds", "1", "--out", str(tmp_path), "--json"]) == 0
-    result = json.loads(capsys.readouterr().out)
-    assert set(result["error_dm"]) == {"A", "B", "C"}
-    assert result["poses"] == 15
-    assert 0.0 <= result["success"] <= 1.0
-    assert result["success_without_filter"] > 0.5  # by chance: far below one in a hundred
-    assert result["bare_fft_ms"] > 0.0
-    for picture in result["pictures"]:
-        assert (tmp_path / picture).stat().st_size > 10_000
-    assert main(["reproduce", "nothing"]) == 2
-    assert "known:" in capsys.readouterr().err
+def test_a_plateau_is_one_end_point_in_its_middle() -> None:
+    beam = Beam((0.0, 0.0, 0.0), half_angle_rad=math.radians(15.0), range_max_m=9.0)
+    sensor = Sensor([beam], "sonar", range_noise_m=0.01)
+    ranges = [9.0] * 72
+    ranges[10:17] = [2.0] * 7  # 50 to 80 degrees
+    scan = landfall.merge_turn_minima([Scan(sensor, [range_m]) for range_m in ranges])
+    points = scan.points_robot()
+    assert len(points) == 4
+    assert np.hypot(points[:, 0], points[:, 1]) == pytest.approx(2.0)
+    assert np.degrees(np.arctan2(points[:, 1], points[:, 0])) == pytest.approx(65.0)
+    with pytest.raises(landfall.InvalidArgument):
+        landfall.merge_turn_minima([])

@@ -46,10 +46,6 @@ CorrelationVolume correlation_volume(const PreparedMap& map, const Scan& scan,
 CorrelationVolume correlation_volume(const GridMap& grid, std::span<const float> values, const Scan& scan,
                                      const CorrelationOptions& options = {});
 
-// Wall time, in seconds, of `count` transforms of such planes forth and as many back, and nothing else, in
-// one thread: what a correlation is measured against. Planning is not counted.
-double time_bare_transforms(int rows, int cols, int count);
-
 // "fftw" or "eigen": -DLANDFALL_FFT of the build.
 std::string_view transform_library();
 

@@ -21,6 +21,27 @@ namespace landfall {
 // Throws Error{invalid_argument}: a scan that does not validate, or scans of different sensors.
 std::vector<Scan> keep_local_minima(std::span<const Scan> turn, bool full_turn = true);
 
+struct TurnMinimaOptions {
+  double equal_sigmas = 3.0;  // of the sensor's range noise: no more sets equal readings apart
+  int plateau_weight = 4;     // end points that a plateau counts for
+};
+
+// The minimum filter over all sonars of a full turn together: what of the turn can be trusted, as one scan
+// from the turn's centre. Scan i of n was taken at heading i 2 pi / n of scan 0's robot frame.
+//  - Readings are interleaved by bearing, whichever sonar took them, and wrap around at 2 pi. Those without
+//    echo are longer than any echo.
+//  - A plateau: a surface met head on, or an edge, is as near anywhere in the cone. Readings that noise alone
+//    sets apart, over half a cone's width or more, none shorter among them, become one end point: at their
+//    mean distance, in the plateau's middle, which may lie between two headings. Where something nearer cuts
+//    the plateau off, the middle is a half-angle inside its other end.
+//  - Elsewhere a reading is kept where none within half a turn's step of its bearing is shorter, averaged
+//    with those that noise alone sets apart from it: errors are positive, so of those that look one way the
+//    shortest is right. (Equation 14 asks one sonar's two neighbours, a whole step away.)
+// Beams that begin at the centre, a plateau's several times; a single invalid one where nothing is left.
+// Throws Error{invalid_argument}: no scans, a scan that does not validate, scans of different sensors,
+// equal_sigmas that are negative or not finite, a weight outside 0 to 100.
+Scan merge_turn_minima(std::span<const Scan> turn, const TurnMinimaOptions& options = {});
+
 // The readings of a turn on the spot as one scan: scan i of n was taken at heading i 2 pi / n of scan 0's
 // robot frame (equation 12). Throws as merge() does.
 Scan merge_turn(std::span<const Scan> turn);

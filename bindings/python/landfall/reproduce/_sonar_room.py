@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from landfall._landfall import Beam, GridMap, Pose2, PreparedMap, Scan, Sensor, simulate_ranges
+from landfall._landfall import Beam, GridMap, Pose2, PreparedMap, Scan, Sensor, WallMap, simulate_ranges
 
 CELL_M = 0.1
 GRID_CELLS = 128
@@ -38,7 +39,15 @@ MOST_EXCESS = 0.3
 Box = tuple[float, float, float, float]
 
 
-def make_room(seed: int) -> PreparedMap:
+@dataclass
+class Room:
+    """What the robot has of it, and what its sonars meet."""
+
+    map: PreparedMap  # cells of 1 dm, occupied where a wall runs through them
+    walls: PreparedMap  # the walls themselves, anywhere between the cells' edges
+
+
+def make_room(seed: int) -> Room:
     """Four walls and furniture along them, different on each side; on the paper's grid of 128 x 128 cells."""
     rng = np.random.default_rng([seed, 1])
     boxes: list[Box] = []
@@ -46,7 +55,7 @@ def make_room(seed: int) -> PreparedMap:
         box = _box_along(int(side), rng)
         if all(_distance(box, point) > 0.5 for point in TEST_POINTS.values()):
             boxes.append(box)
-    return PreparedMap(_grid(boxes), field_sigma_m=CELL_M)
+    return Room(PreparedMap(_grid(boxes), field_sigma_m=CELL_M), PreparedMap(_walls(boxes)))
 
 
 def _box_along(side: int, rng: np.random.Generator) -> Box:
@@ -58,6 +67,16 @@ def _box_along(side: int, rng: np.random.Generator) -> Box:
         return (x, y0, x + along, y0 + deep) if side == 0 else (x, y1 - deep, x + along, y1)
     y = rng.uniform(y0, y1 - along)
     return (x0, y, x0 + deep, y + along) if side == 2 else (x1 - deep, y, x1, y + along)
+
+
+def _walls(boxes: Sequence[Box]) -> WallMap:
+    """All sides of room and furniture; what is inside of furniture no sonar reaches."""
+    sides = [
+        side
+        for x0, y0, x1, y1 in (ROOM_M, *boxes)
+        for side in ((x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0))
+    ]
+    return WallMap(np.array(sides))
 
 
 def _grid(boxes: Sequence[Box]) -> GridMap:
@@ -116,22 +135,24 @@ def amigobot(half_angle_rad: float = HALF_ANGLE_RAD) -> Sensor:
     return Sensor(beams, "amigobot", range_noise_m=NOISE_M, range_noise_relative=NOISE_RELATIVE)
 
 
-def read_turn(map: PreparedMap, T_map_robot: Pose2, seed: int) -> list[Scan]:
+def read_turn(
+    walls: PreparedMap, T_map_robot: Pose2, seed: int, most_excess: float = MOST_EXCESS
+) -> list[Scan]:
     """The sonars' readings at TURNS headings, a full turn from T_map_robot on.
 
     A sonar returns the nearest obstacle in its cone where the sound meets it head on (or at a corner), with
     noise. Where that obstacle lies at the cone's rim the sound meets it at a slant and is reflected away: the
-    reading is that along the beam's axis, or up to 30 % longer.
+    reading is that along the beam's axis, or longer by anything up to `most_excess` of it.
     """
     rng = np.random.default_rng([seed, 3])
     step_rad = 2.0 * math.pi / TURNS
     poses = [
         Pose2(T_map_robot.x_m, T_map_robot.y_m, T_map_robot.theta_rad + k * step_rad) for k in range(TURNS)
     ]
-    nearest = simulate_ranges(map, amigobot(), poses).astype(float)
-    axis = simulate_ranges(map, amigobot(0.0), poses).astype(float)
-    long = np.maximum(nearest, axis) * (1.0 + MOST_EXCESS * rng.uniform(size=axis.shape))
-    ranges = np.where(_incidence_rad(map, poses, nearest) > OBLIQUE_RAD, long, nearest)
+    nearest = simulate_ranges(walls, amigobot(), poses).astype(float)
+    axis = simulate_ranges(walls, amigobot(0.0), poses).astype(float)
+    long = np.maximum(nearest, axis) * (1.0 + most_excess * rng.uniform(size=axis.shape))
+    ranges = np.where(_incidence_rad(walls, poses, nearest) > OBLIQUE_RAD, long, nearest)
     ranges += (NOISE_M + NOISE_RELATIVE * np.where(np.isfinite(ranges), ranges, 0.0)) * rng.normal(
         size=ranges.shape
     )
@@ -139,10 +160,10 @@ def read_turn(map: PreparedMap, T_map_robot: Pose2, seed: int) -> list[Scan]:
     return [Scan(sensor, np.minimum(row, RANGE_MAX_M).astype(np.float32)) for row in ranges]
 
 
-def _incidence_rad(map: PreparedMap, poses: list[Pose2], nearest: np.ndarray) -> np.ndarray:
+def _incidence_rad(walls: PreparedMap, poses: list[Pose2], nearest: np.ndarray) -> np.ndarray:
     """At the nearest point of each cone, by how much less a slightly wider cone returns: 0 head on."""
     wider_rad = math.radians(0.5)
-    wider = simulate_ranges(map, amigobot(HALF_ANGLE_RAD + wider_rad), poses).astype(float)
+    wider = simulate_ranges(walls, amigobot(HALF_ANGLE_RAD + wider_rad), poses).astype(float)
     with np.errstate(invalid="ignore"):
         slope = (nearest - wider) / (wider_rad * nearest)
     return np.where(np.isfinite(slope), np.arctan(np.maximum(slope, 0.0)), 0.0)
