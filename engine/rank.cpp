@@ -81,6 +81,20 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
   return found;
 }
 
+void drop_repeated(const SearchOptions& options, std::vector<Mode>& modes) {
+  std::vector<Mode> distinct;
+  for (Mode& mode : modes) {
+    const Pose2& T_map_robot = mode.hypothesis.T_map_robot;
+    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Mode& other) {
+      const Pose2& T_map_other = other.hypothesis.T_map_robot;
+      return translation_distance(T_map_other, T_map_robot) < options.distinct_translation_m &&
+             angle_distance(T_map_other.theta_rad, T_map_robot.theta_rad) < options.distinct_rotation_rad;
+    });
+    if (!known) distinct.push_back(std::move(mode));
+  }
+  modes = std::move(distinct);
+}
+
 namespace {
 
 struct Ranked {

@@ -45,6 +45,9 @@ struct Modes {
 Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most,
                  std::span<const FreeCandidate> free_candidates = {});
 
+// Of modes that are one when refined only the first stays. Modes of lattices are not refined that far.
+void drop_repeated(const SearchOptions& options, std::vector<Mode>& modes);
+
 // Verified modes of all maps -> hypotheses in order, probabilities, verdict.
 void rank(const std::vector<Modes>& maps, int max_hypotheses, SearchResult& result);
 

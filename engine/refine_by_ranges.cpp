@@ -117,9 +117,9 @@ std::array<double, 9> covariance_of(const Linearised& at, double noise_m) {
 
 RefinedByRanges refine_by_ranges(const PreparedState& map, const Scan& scan, const Pose2& T_map_start,
                                  const RefineReach& reach) {
-  constexpr int most_iterations = 10;
-  constexpr double first_width_m = 0.15;
-  constexpr double narrowing = 0.5;
+  constexpr int most_iterations = 14;
+  constexpr double first_width_m = 0.3;
+  constexpr double narrowing = 0.6;
   constexpr double small_m = 1e-4;
   RangeResiduals residuals(map, echoes_of(scan));
   const double last_width_m = 3.0 * residuals.noise_m();

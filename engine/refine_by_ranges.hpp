@@ -18,8 +18,8 @@ struct RefinedByRanges {
 
 // How far a refined pose may be from where it started.
 struct RefineReach {
-  double translation_m = 0.15;
-  double rotation_rad = 0.06;
+  double translation_m = 0.3;
+  double rotation_rad = 0.15;
 };
 
 // Gauss-Newton on measured less simulated range, of beams without half-angle that have an echo; the

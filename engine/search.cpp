@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/central_heading.hpp"
+#include "engine/lattice_score.hpp"
 #include "engine/methods/table.hpp"
 #include "engine/options.hpp"
 #include "engine/parallel.hpp"
@@ -90,15 +91,18 @@ void refine_modes(const Query& query, const Method& method, Modes& found, Search
     hypothesis.score = mode.free ? mode.free->score : mode.best.score;
     hypothesis.T_map_robot_unrefined =
         mode.free ? mode.free->T_map_robot : query.lattice.T_map_robot(mode.best.pose);
-    const Refined refined = refine(query.map, query.points, query.lattice, hypothesis.T_map_robot_unrefined);
-    hypothesis.T_map_robot = found.by_ranges && cones ? mode.T_map_mean : refined.T_map_robot;
-    hypothesis.covariance = refined.covariance;
-    mode.share = refined.share;
+    Pose2 T_map_start = hypothesis.T_map_robot_unrefined;
+    std::optional<RefinedByRanges> exact;
     if (method.refines_by_ranges && query.map.is_plan()) {
-      const RefinedByRanges exact = refine_by_ranges(query.map, query.scan, hypothesis.T_map_robot_unrefined);
-      hypothesis.T_map_robot = exact.T_map_robot;
-      hypothesis.covariance = exact.covariance;
+      exact = refine_by_ranges(query.map, query.scan, T_map_start);
+      T_map_start = exact->T_map_robot;
+      if (const auto beside = best_on_lattice_beside(query, T_map_start)) mode.best = *beside;
     }
+    const Refined refined = refine(query.map, query.points, query.lattice, T_map_start);
+    const bool by_mean = found.by_ranges && cones;
+    hypothesis.T_map_robot = exact ? T_map_start : by_mean ? mode.T_map_mean : refined.T_map_robot;
+    hypothesis.covariance = exact ? exact->covariance : refined.covariance;
+    mode.share = refined.share;
     if (problem) mode.ways_to_settle = settle(*problem, hypothesis.T_map_robot);
   });
 }
@@ -141,6 +145,7 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
                : find_modes(query, proposal.candidates, most, proposal.free_candidates);
   }();
   refine_modes(query, method, modes, result);
+  if (method.samples) drop_repeated(query.options, modes.modes);
   verify_modes(query, modes, result);
   return modes;
 }

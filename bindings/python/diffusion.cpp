@@ -25,14 +25,16 @@ void bind_snapshots(nb::module_& module) {
               rows.insert(rows.end(), {pose.x_m, pose.y_m, pose.theta_rad});
             return adopt(std::move(rows), snapshot.T_map_robot.size(), std::size_t{3});
           },
-          "(cells, 3) float64: x_m, y_m, theta_rad in the map frame.")
+          nb::rv_policy::move, "(cells, 3) float64: x_m, y_m, theta_rad in the map frame.")
       .def_ro("level", &DiffusionSnapshot::level, "Per cell; 0 is the top.")
       .def_ro("active", &DiffusionSnapshot::active, "Per cell, 0 or 1.");
   nb::class_<DiffusionMode>(module, "DiffusionMode", "Where a network settled.")
       .def_ro("T_map_robot", &DiffusionMode::T_map_robot, "The mean of its cells, not refined.")
       .def_ro("agreeing", &DiffusionMode::agreeing, "Beams within their tolerance at the finest level.")
       .def_ro("cells", &DiffusionMode::cells)
-      .def_ro("iterations", &DiffusionMode::iterations, "Of the network that found it.");
+      .def_ro("iterations", &DiffusionMode::iterations, "Of the network that found it.")
+      .def_ro("found_ms", &DiffusionMode::found_ms, "Wall time until it was found.")
+      .def_ro("found_processor_ms", &DiffusionMode::found_processor_ms, "Processor time, over all threads.");
   nb::class_<DiffusionLevel>(module, "DiffusionLevel", "A focus level: half widths of its regions.")
       .def_ro("half_m", &DiffusionLevel::half_m)
       .def_ro("half_rad", &DiffusionLevel::half_rad);
@@ -85,6 +87,15 @@ void bind_diffusion(nb::module_& module) {
       "What methods `sdn` and `fsdn` do, observed: the modes before refinement, counts and times, and, of "
       "the first\nnetwork, its cells at some iterations and at its end. 0 cells or a top of 0: chosen. "
       "Raises InvalidArgument.");
+  module.def(
+      "time_bare_rays",
+      [](const PreparedMap& map, const Sensor& sensor, const PosesArgument& T_map_robot) {
+        const std::vector<Pose2> poses = poses_from(T_map_robot, "time_bare_rays");
+        const nb::gil_scoped_release released;
+        return time_bare_rays(map, sensor, poses);
+      },
+      "map"_a, "sensor"_a, "T_map_robot"_a,
+      "Processor time in seconds for casting one ray from each pose, beams in turn: the raycaster alone.");
 }
 
 }  // namespace landfall::python

@@ -6,45 +6,14 @@
 // the engine's scene, so that nothing is precomputed per place. Random numbers are keyed by (seed, network of
 // the scan, cell, iteration), so that a batch equals the loop over its scans.
 #include <algorithm>
-#include <optional>
+#include <vector>
 
+#include "engine/lattice_score.hpp"
 #include "engine/methods/sdn/find_modes_by_diffusion.hpp"
 #include "engine/methods/table.hpp"
 
 namespace landfall::internal {
 namespace {
-
-std::int32_t field_score(const Query& query, const HeadingCells& cells, const LatticePose& pose) {
-  const GridMap& grid = query.map.grid();
-  const std::vector<std::uint8_t>& field = query.map.field();
-  std::int32_t sum = 0;
-  for (std::size_t i = 0; i < cells.col.size(); ++i) {
-    const CellIndex cell{.col = pose.col + cells.col[i], .row = pose.row + cells.row[i]};
-    if (grid.contains(cell)) sum += field[grid.index(cell)];
-  }
-  return sum;
-}
-
-// The pose of the prior's lattice that scores best beside a pose; none where the prior has none there.
-std::optional<Candidate> on_lattice(const Query& query, const Pose2& T_map_robot) {
-  const LatticePose nearest = query.lattice.nearest(T_map_robot);
-  const int step = query.lattice.step_cells;
-  const int headings = query.lattice.headings;
-  std::optional<Candidate> best;
-  HeadingCells cells;
-  for (int turn = -1; turn <= 1; ++turn) {
-    LatticePose pose{.heading = (nearest.heading + turn + headings) % headings};
-    cells_at_heading(query.points, query.lattice, pose.heading, cells);
-    for (pose.row = nearest.row - step; pose.row <= nearest.row + step; pose.row += step) {
-      for (pose.col = nearest.col - step; pose.col <= nearest.col + step; pose.col += step) {
-        if (!query.domain.contains(pose)) continue;
-        const Candidate one{.pose = pose, .score = field_score(query, cells, pose)};
-        if (!best || better(one, *best)) best = one;
-      }
-    }
-  }
-  return best;
-}
 
 struct Scored {
   Candidate candidate;
@@ -55,7 +24,7 @@ Proposal propose(const Query& query, bool focused) {
   const DiffusionAnswer answer = find_modes_by_diffusion(query, {.focused = focused});
   std::vector<Scored> scored;
   for (const DiffusionMode& mode : answer.modes)
-    if (const auto candidate = on_lattice(query, mode.T_map_robot))
+    if (const auto candidate = best_on_lattice_beside(query, mode.T_map_robot))
       scored.push_back({*candidate, {.T_map_robot = mode.T_map_robot, .score = mode.agreeing}});
   std::stable_sort(scored.begin(), scored.end(),
                    [](const Scored& a, const Scored& b) { return better(a.candidate, b.candidate); });

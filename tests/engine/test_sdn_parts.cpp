@@ -6,9 +6,11 @@
 
 #include "engine/methods/sdn/beam_bands.hpp"
 #include "engine/methods/sdn/cells.hpp"
+#include "engine/methods/sdn/choose_parameters.hpp"
 #include "engine/methods/sdn/cluster.hpp"
 #include "engine/methods/sdn/equilibrium.hpp"
 #include "engine/methods/sdn/pose_sampler.hpp"
+#include "engine/prepared_state.hpp"
 #include "rooms.hpp"
 
 namespace landfall {
@@ -193,6 +195,15 @@ TEST_F(BandsOfARoom, LeaveOutInvalidBeamsAndAllowNothingHitWhereNothingWasHit) {
   EXPECT_EQ(bands.sensor_beam(3), 4);
   EXPECT_TRUE(bands.band(0, 3).contains(std::numeric_limits<float>::infinity()));
   EXPECT_FALSE(bands.band(0, 180).contains(std::numeric_limits<float>::infinity()));
+}
+
+TEST(Parameters, GrowWithWhatIsSearched) {
+  EXPECT_EQ(internal::choose_cells(1.0), 128);
+  EXPECT_EQ(internal::choose_cells(25'000.0), 1000);
+  EXPECT_EQ(internal::choose_cells(1e9), 4096);
+  const internal::RunLimits limits = internal::choose_limits(1000.0, 128);
+  EXPECT_GT(limits.draws, limits.rival_draws);
+  EXPECT_GT(limits.iterations, 100);
 }
 
 TEST(PoseSampler, DrawsFromThePriorAlone) {

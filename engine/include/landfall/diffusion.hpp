@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "landfall/prepared_map.hpp"
@@ -40,6 +41,9 @@ struct DiffusionMode {
   int agreeing = 0;     // beams within their tolerance at the finest level
   int cells = 0;
   int iterations = 0;  // of the network that found it
+  // Until it was found, networks before included: wall time, and processor time over all threads.
+  double found_ms = 0.0;
+  double found_processor_ms = 0.0;
 };
 
 struct DiffusionLevel {
@@ -65,5 +69,9 @@ struct DiffusionRun {
 // Throws Error{invalid_argument}: a map, prior or scan that search() would refuse, options out of range.
 DiffusionRun run_diffusion(const PreparedMap& map, const PosePrior& prior, const Scan& scan,
                            const DiffusionOptions& options = {});
+
+// Processor time in seconds for casting ray i, beam i % beams of a sensor without half-angles, from
+// T_map_robot[i]: the raycaster alone, in one thread, on rays that have nothing in common.
+double time_bare_rays(const PreparedMap& map, const Sensor& sensor, std::span<const Pose2> T_map_robot);
 
 }  // namespace landfall

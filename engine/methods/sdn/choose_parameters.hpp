@@ -23,15 +23,20 @@ std::vector<FocusLevel> make_levels(const PoseSampler& sampler, const DiffusionS
 // By how much a map's walls may be off: a plan's are exact, a grid's are good to a cell.
 double map_noise_m(const PreparedState& map);
 
-// The number of cells that makes the expected time least; see choose_parameters.cpp for the model.
+// The number of cells. A network's tests are those that find the region which holds the robot, in proportion
+// to the number of regions and hardly dependent on the cells, and those in which the cells gather there and
+// focus, in proportion to the cells. So many cells are taken that the second are half of the first: no other
+// number can then be more than one and a half times as fast, and each cell less makes the network less sure.
 std::size_t choose_cells(double regions);
 
+// How long the networks of a scan may go on: so many draws that a region which holds the robot is hit, but for
+// one time in e to the draws per region. Fewer where a mode is known that explains the scan well: rivals. And
+// iterations, should hardly any cell draw.
 struct RunLimits {
   std::int64_t draws = 0;
-  std::uint32_t iterations = 0;
+  std::int64_t rival_draws = 0;
+  std::uint32_t iterations = 0;  // of one network
 };
-// How long the networks of a scan may go on: as many draws as miss a region that holds the robot once in 50
-// times, and iterations of a network in which hardly any cell draws.
 RunLimits choose_limits(double regions, std::size_t cells);
 
 }  // namespace landfall::internal

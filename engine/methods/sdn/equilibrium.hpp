@@ -14,6 +14,7 @@ struct EquilibriumOptions {
   std::size_t cells = 0;
   int iterations = 6;
   double least_share = 0.08;  // of the cells: a
+  double least_cells = 5.0;   // a too: the mean of few is rough
   double bound_share = 0.2;   // of the cells: b
 };
 

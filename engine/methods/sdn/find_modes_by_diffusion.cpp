@@ -17,11 +17,13 @@ constexpr double as_well = 0.85;
 // A mode that explains so many beams is taken to be one.
 constexpr double good = 0.8;
 constexpr std::size_t most_modes = 16;
+// Cells may settle beside a mode that is excluded before they find a rival.
+constexpr std::ptrdiff_t enough_worse = 3;
 // 2.2 asks for equilibrium among cells at the finest level. Where nearly all cells have been active for long
 // without it, they hold each other in a place that fits at the coarser levels alone, and draw no new
 // mappings: that place is a mode too, a bad one, without which the next network goes on.
 constexpr double saturation = 0.75;
-constexpr int most_saturated = 80;
+constexpr int most_saturated = 120;
 
 // The networks of one query.
 class DiffusionSearch {
@@ -38,6 +40,7 @@ class DiffusionSearch {
         cells_(settings.cells > 0 ? settings.cells : choose_cells(regions_)) {}
 
   DiffusionAnswer run() {
+    const Clock::time_point start = Clock::now();
     answer_.levels = levels_;
     answer_.regions = regions_;
     answer_.cells = cells_;
@@ -46,6 +49,9 @@ class DiffusionSearch {
       const std::optional<DiffusionMode> mode = run_network(number);
       if (!mode) break;
       answer_.modes.push_back(*mode);
+      answer_.modes.back().found_ms =
+          std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+      answer_.modes.back().found_processor_ms = answer_.counts.step_ms;
       if (none_explains_as_well()) break;
     }
     return std::move(answer_);
@@ -71,19 +77,28 @@ class DiffusionSearch {
     return mode;
   }
 
-  // The latest mode is beside a good one, and worse.
+  [[nodiscard]] int most_agreeing() const {
+    int most = 0;
+    for (const DiffusionMode& mode : answer_.modes) most = std::max(most, mode.agreeing);
+    return most;
+  }
+  [[nodiscard]] bool has_good_mode() const {
+    return most_agreeing() >= good * static_cast<double>(bands_.size());
+  }
+  // Beside a good mode, several that are worse.
   [[nodiscard]] bool none_explains_as_well() const {
-    int most_agreeing = 0;
-    for (const DiffusionMode& mode : answer_.modes) most_agreeing = std::max(most_agreeing, mode.agreeing);
-    return most_agreeing >= good * static_cast<double>(bands_.size()) &&
-           answer_.modes.back().agreeing < as_well * most_agreeing;
+    const double least = as_well * most_agreeing();
+    const auto worse = std::count_if(answer_.modes.begin(), answer_.modes.end(),
+                                     [&](const DiffusionMode& mode) { return mode.agreeing < least; });
+    return has_good_mode() && worse >= enough_worse;
   }
 
   std::optional<DiffusionMode> until_equilibrium(Network& network, std::uint32_t number) {
     const RunLimits limits = choose_limits(regions_, cells_);
     Equilibrium equilibrium({.cells = cells_});
     int saturated = 0;
-    while (answer_.counts.draws + network.counts().draws < limits.draws &&
+    const std::int64_t most_draws = has_good_mode() ? limits.rival_draws : limits.draws;
+    while (answer_.counts.draws + network.counts().draws < most_draws &&
            network.iterations() < limits.iterations) {
       if (query_.out_of_time()) break;
       network.step();

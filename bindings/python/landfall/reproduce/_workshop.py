@@ -25,6 +25,7 @@ class Workshop:
     walls: list[tuple[float, float, float, float]] = field(default_factory=list)
     solids: list[np.ndarray] = field(default_factory=list)
     door: tuple[float, float] = (0.0, 0.0)
+    size_m: tuple[float, float] = (WIDTH_M, HEIGHT_M)
 
     def map(self) -> PreparedMap:
         return PreparedMap(WallMap(np.array(self.walls)), outside_unknown=True)
@@ -36,8 +37,6 @@ class Workshop:
 
     def is_free(self, x_m: float, y_m: float) -> bool:
         """Whether the robot fits there."""
-        if not (CLEARANCE_M < x_m < WIDTH_M - CLEARANCE_M and CLEARANCE_M < y_m < HEIGHT_M - CLEARANCE_M):
-            return False
         point = np.array([x_m, y_m])
         if any(_contains(corners, point) for corners in self.solids):
             return False
@@ -47,7 +46,7 @@ class Workshop:
     def random_poses(self, count: int, rng: np.random.Generator) -> list[Pose2]:
         poses: list[Pose2] = []
         while len(poses) < count:
-            x_m, y_m = rng.uniform(0.0, WIDTH_M), rng.uniform(0.0, HEIGHT_M)
+            x_m, y_m = rng.uniform((0.0, 0.0), self.size_m)
             if self.is_free(x_m, y_m):
                 poses.append(Pose2(x_m, y_m, rng.uniform(-math.pi, math.pi)))
         return poses
@@ -61,6 +60,19 @@ def make_workshop(seed: int) -> Workshop:
     _add_pillars(workshop, rng)
     _add_machines(workshop, rng, 11)
     return workshop
+
+
+def make_room(seed: int) -> Workshop:
+    """4 x 4 m, with three boxes along its walls."""
+    rng = np.random.default_rng([seed, 9])
+    side_m = 4.0
+    room = Workshop(size_m=(side_m, side_m))
+    corners = [(0.0, 0.0), (side_m, 0.0), (side_m, side_m), (0.0, side_m)]
+    room.walls += [(*a, *b) for a, b in zip(corners, corners[1:] + corners[:1], strict=True)]
+    for at in ((0.7, 0.45), (3.5, 1.6), (1.6, 3.55)):
+        center = np.array(at) + rng.uniform(-0.1, 0.1, 2)
+        room.add_solid(_box(center, rng.uniform(0.5, 0.9), rng.uniform(0.3, 0.6), 0.0))
+    return room
 
 
 def make_scanners() -> Sensor:
