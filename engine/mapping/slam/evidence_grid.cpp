@@ -27,9 +27,11 @@ int floor_div(int a, int b) {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// From a place within a cell, 0 to 1, to the cell's border in a direction.
+// Length along a ray, in units of its direction, from a place within a cell, 0 to 1, to the cell's border;
+// never where it runs along it.
 double first_crossing(double place, double direction) {
-  return direction > 0.0 ? 1.0 - place : place;
+  if (direction == 0.0) return infinity;
+  return (direction > 0.0 ? 1.0 - place : place) / std::abs(direction);
 }
 
 double distance(const Point2& a, const Point2& b) {
@@ -157,8 +159,8 @@ void EvidenceGrid::miss_along(const EchoRay& ray) {
   const double dy = (ray.to_map.y_m - ray.from_map.y_m) / cell_m;
   const double per_col = dx == 0.0 ? infinity : std::abs(1.0 / dx);
   const double per_row = dy == 0.0 ? infinity : std::abs(1.0 / dy);
-  double next_col = first_crossing(ray.from_map.x_m / cell_m - start.col, dx) * per_col;
-  double next_row = first_crossing(ray.from_map.y_m / cell_m - start.row, dy) * per_row;
+  double next_col = first_crossing(ray.from_map.x_m / cell_m - start.col, dx);
+  double next_row = first_crossing(ray.from_map.y_m / cell_m - start.row, dy);
   const std::ptrdiff_t to_col = dx > 0.0 ? 1 : -1;
   const std::ptrdiff_t to_row = dy > 0.0 ? cells_.width() : -cells_.width();
   Cell* cell = &cells_[start];
