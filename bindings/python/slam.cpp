@@ -86,6 +86,7 @@ void bind_options(nb::module_& module) {
       .def_rw("occupied_log_odds", &SlamOptions::occupied_log_odds)
       .def_rw("free_log_odds", &SlamOptions::free_log_odds)
       .def_rw("max_log_odds", &SlamOptions::max_log_odds)
+      .def_rw("min_log_odds", &SlamOptions::min_log_odds)
       .def_rw("seed", &SlamOptions::seed)
       .def_rw("threads", &SlamOptions::threads);
 }

@@ -31,7 +31,12 @@ FRAME_PIXELS = 640  # along the longer side
 def draw_built_map(axes: Axes, grid: GridMap, path: Sequence[Pose2], box: Box | None = None) -> None:
     """Unknown grey, obstacles black, measured white; the path, and the robot at its end."""
     x0, y0 = grid.T_map_grid.x_m, grid.T_map_grid.y_m
-    x0, x1, y0, y1 = x0, x0 + grid.width_cells * grid.resolution_m, y0, y0 + grid.height_cells * grid.resolution_m
+    x0, x1, y0, y1 = (
+        x0,
+        x0 + grid.width_cells * grid.resolution_m,
+        y0,
+        y0 + grid.height_cells * grid.resolution_m,
+    )
     axes.imshow(
         thin(grid.cells, max(1, max(grid.cells.shape) // 2000)),
         cmap=COLORS,
@@ -46,7 +51,9 @@ def draw_built_map(axes: Axes, grid: GridMap, path: Sequence[Pose2], box: Box | 
         axes.plot(xy[:, 0], xy[:, 1], color=PATH, linewidth=1.2)
         axes.scatter(xy[-1:, 0], xy[-1:, 1], s=18, color=ROBOT, zorder=3)
     shown = box or known_box(grid)
-    axes.set(xlim=shown[:2], ylim=shown[2:], aspect="equal", facecolor=UNKNOWN, xlabel="x [m]", ylabel="y [m]")
+    axes.set(
+        xlim=shown[:2], ylim=shown[2:], aspect="equal", facecolor=UNKNOWN, xlabel="x [m]", ylabel="y [m]"
+    )
 
 
 def save_built_map(grid: GridMap, path: Sequence[Pose2], file: Path) -> None:
@@ -89,7 +96,9 @@ class GrowingMapGif:
     def _write(self) -> None:
         box = known_box(self.frames[-1][0])
         scale = FRAME_PIXELS / 100.0 / max(box[1] - box[0], box[3] - box[2])
-        figure = Figure(figsize=(max((box[1] - box[0]) * scale, 2.0), max((box[3] - box[2]) * scale, 2.0)), dpi=100)
+        figure = Figure(
+            figsize=(max((box[1] - box[0]) * scale, 2.0), max((box[3] - box[2]) * scale, 2.0)), dpi=100
+        )
         FigureCanvasAgg(figure)
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         part = self.file.with_name(f".{self.file.stem}.part.gif")

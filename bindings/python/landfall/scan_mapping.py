@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         occupied_log_odds: float
         free_log_odds: float
         max_log_odds: float
+        min_log_odds: float
         seed: int
         threads: int
 

@@ -53,6 +53,8 @@ struct SlamOptions {
   double occupied_log_odds = 0.4;
   double free_log_odds = -0.2;
   double max_log_odds = 3.5;
+  double min_log_odds =
+      -1.2;  // free space is not surer than that: what appears in it is drawn at its second echo
   std::uint64_t seed = 0;
   int threads = 1;  // of `branch_and_bound` and of recoveries; answers do not depend on it
 };

@@ -43,6 +43,7 @@ void check(const SlamOptions& options) {
   require("recovery_reach_m", options.recovery_reach_m, 0.0, 100.0, "0 to 100");
   const double most = EvidenceGrid::most_log_odds;
   require("max_log_odds", options.max_log_odds, 0.01, most, "0.01 to 30");
+  require("min_log_odds", options.min_log_odds, -most, options.free_log_odds, "-30 to free_log_odds");
   require("log_odds_hit", options.log_odds_hit, 0.001, most, "0.001 to 30");
   require("log_odds_miss", options.log_odds_miss, -most, -0.001, "-30 to -0.001");
   require("occupied_log_odds", options.occupied_log_odds, -most, most, "-30 to 30");

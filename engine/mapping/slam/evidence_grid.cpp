@@ -52,6 +52,7 @@ EvidenceGrid::EvidenceGrid(const SlamOptions& options)
       occupied_(units(options.occupied_log_odds)),
       free_(units(options.free_log_odds)),
       most_(units(options.max_log_odds)),
+      least_(units(options.min_log_odds)),
       cells_({}, cell_stride),
       bits_(0, word_stride) {}
 
@@ -177,7 +178,7 @@ void EvidenceGrid::miss_along(const EchoRay& ray) {
 void EvidenceGrid::miss(Cell& value, const EchoRay& ray) {
   const bool was_occupied = is_occupied(value);
   value.seen_in = scan_;
-  value.evidence = static_cast<std::int16_t>(std::max<int>(-most_, value.evidence + miss_));
+  value.evidence = static_cast<std::int16_t>(std::max<int>(least_, value.evidence + miss_));
   if (!was_occupied) return;
   const CellIndex cell = cells_.cell_at(&value - cells_.data());
   const Point2 p_map{.x_m = (cell.col + 0.5) * options_.resolution_m,

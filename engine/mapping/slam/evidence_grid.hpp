@@ -65,7 +65,7 @@ class EvidenceGrid {
   [[nodiscard]] CellBox known_box() const;
 
   SlamOptions options_;
-  std::int16_t hit_, miss_, occupied_, free_, most_;
+  std::int16_t hit_, miss_, occupied_, free_, most_, least_;
   GrowingArray<Cell> cells_;
   GrowingArray<std::uint32_t> bits_;  // by words
   std::uint8_t scan_ = 0;

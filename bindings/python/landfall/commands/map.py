@@ -10,13 +10,16 @@ from typing import Annotated
 import typer
 
 from landfall._landfall import Pose2, Scan, load_trajectory, map_from_known_poses, save_grid_map
-from landfall.commands.options import LogFile, SensorFile, read_log
+from landfall.commands._map_slam import SlamRequest, map_by_slam
+from landfall.commands.options import LogFile, Seed, SensorFile, read_log
 from landfall.commands.sonar_maps import SONAR_METHODS, SonarSettings
 from landfall.errors import InvalidArgument, UnknownName
 from landfall.outputs import require_writable
 
-METHODS = ("known-poses", *SONAR_METHODS)
+METHODS = ("known-poses", "slam", *SONAR_METHODS)
 POSE_TOLERANCE_S = 0.02
+CELL_M, SLAM_CELL_M = 0.05, 0.02
+SLAM = "Method slam"
 
 
 def run(
@@ -29,7 +32,9 @@ def run(
     odometry: Annotated[
         bool, typer.Option("--odometry", help="Take the log's odometry for poses, drift and all.")
     ] = False,
-    resolution_m: Annotated[float, typer.Option("--resolution-m", help="Cell size.")] = 0.05,
+    resolution_m: Annotated[
+        float | None, typer.Option("--resolution-m", help="Cell size; default 0.05, slam: 0.02.")
+    ] = None,
     range_max_m: Annotated[
         float, typer.Option("--range-max-m", help="Longer echoes free their first metres only; 0: no limit.")
     ] = 0.0,
@@ -45,15 +50,58 @@ def run(
         int, typer.Option("--window-scans", help="tbf: scans that a reading's partners are sought in.")
     ] = 50,
     sensor: SensorFile = None,
+    matcher: Annotated[
+        str, typer.Option("--matcher", help="slam: pso or branch_and_bound.", rich_help_panel=SLAM)
+    ] = "pso",
+    prediction: Annotated[
+        str,
+        typer.Option(
+            "--prediction", help="slam: still, constant_velocity or odometry.", rich_help_panel=SLAM
+        ),
+    ] = "still",
+    raw: Annotated[
+        bool, typer.Option("--raw", help="slam: matches as published, not refined.", rich_help_panel=SLAM)
+    ] = False,
+    seed: Seed = 0,
+    trajectory: Annotated[
+        Path | None, typer.Option("--trajectory", help="slam: TUM file of the path.", rich_help_panel=SLAM)
+    ] = None,
+    picture: Annotated[
+        Path | None,
+        typer.Option("--picture", help="slam: map and path; default beside --out.", rich_help_panel=SLAM),
+    ] = None,
+    animation: Annotated[
+        Path | None,
+        typer.Option("--animation", help="slam: GIF of the map as it grows.", rich_help_panel=SLAM),
+    ] = None,
 ) -> None:
-    """An occupancy grid from scans whose poses are known: corrected logs, a localizer's tf, or --poses.
+    """An occupancy grid from scans whose poses are known (corrected logs, a localizer's tf, --poses), or from
+    scans alone (--method slam).
 
-    known-poses takes lasers; tbf, sonar-grid and end-points take sonars.
+    known-poses and slam take lasers; tbf, sonar-grid and end-points take sonars.
     """
     if method not in METHODS:
         raise UnknownName(f"--method {method}: unknown; known: {', '.join(METHODS)}")
     require_writable(out)
     scans = read_log(log, sensor).scans[from_index:to_index]
+    if method == "slam":
+        map_by_slam(
+            log,
+            scans,
+            SlamRequest(
+                out=out,
+                matcher=matcher,
+                prediction=prediction,
+                resolution_m=SLAM_CELL_M if resolution_m is None else resolution_m,
+                range_max_m=range_max_m,
+                seed=seed,
+                raw=raw,
+                trajectory=trajectory,
+                picture=picture,
+                animation=animation,
+            ),
+        )
+        return
     if poses is not None:
         set_poses(scans, load_trajectory(poses))
     elif odometry:
@@ -64,11 +112,12 @@ def run(
         raise InvalidArgument(
             f"{log}: none of {len(scans)} scans has a known pose: give --poses or --odometry"
         )
+    cell_m = CELL_M if resolution_m is None else resolution_m
     if method in SONAR_METHODS:
-        settings = SonarSettings(resolution_m, window_scans, bounding_box, connect_walls)
+        settings = SonarSettings(cell_m, window_scans, bounding_box, connect_walls)
         grid = SONAR_METHODS[method](located, settings)
     else:
-        grid = map_from_known_poses(located, resolution_m=resolution_m, range_max_m=range_max_m)
+        grid = map_from_known_poses(located, resolution_m=cell_m, range_max_m=range_max_m)
     save_grid_map(grid, out)
     print(f"{out}: {grid.width_cells} x {grid.height_cells} cells from {len(located)} of {len(scans)} scans")
 

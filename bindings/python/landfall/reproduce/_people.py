@@ -11,6 +11,7 @@ from landfall.reproduce._wheelchair_room import MIDDLE_M, Room, distance_to_path
 
 PEOPLE = 3
 SPEED_M_S = 0.8
+MOST_STANDING = 20  # scans in one place
 LEG_RADIUS_M, HALF_STANCE_M, STRIDE_M = 0.06, 0.12, 0.25
 # The part of the room where they walk, before it is mirrored: x0, x1, y0, y1.
 FLOOR_M = (2.7, 6.3, 0.4, 3.9)
@@ -29,7 +30,9 @@ def wandering_people(room: Room, rng: np.random.Generator, period_s: float, scan
             across = HALF_STANCE_M * np.array([-math.sin(heading), math.cos(heading)])
             swing = STRIDE_M * math.sin(2.0 * math.pi * SPEED_M_S * i * period_s / 1.4)
             along = swing * np.array([math.cos(heading), math.sin(heading)])
-            feet = in_map(room.T_room_start.inverse(), np.array([point + across + along, point - across - along]))
+            feet = in_map(
+                room.T_room_start.inverse(), np.array([point + across + along, point - across - along])
+            )
             legs[i] += [(float(x), float(y), LEG_RADIUS_M) for x, y in feet]
     return legs
 
@@ -45,7 +48,7 @@ def _walk(
         heading = math.atan2(there[1] - here[1], there[0] - here[0])
         count = max(1, round(float(np.hypot(*(there - here))) / (SPEED_M_S * period_s)))
         steps += [(here + (there - here) * k / count, heading) for k in range(count)]
-        steps += [(there, heading)] * int(rng.integers(0, 6))
+        steps += [(there, heading)] * int(rng.integers(0, MOST_STANDING))
         here = there
     return steps[:scans]
 
