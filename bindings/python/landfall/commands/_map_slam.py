@@ -78,7 +78,7 @@ def _summary(out: Path, result: SlamResult) -> str:
     recovered = sum(step.recovered for step in result.steps)
     spent_ms = [step.match_ms + step.insert_ms for step in result.steps]
     return (
-        f"{out}: {result.map.width_cells} x {result.map.height_cells} cells from {accepted} of {len(result.steps)} "
-        f"scans, {recovered} by the wider search; {sum(spent_ms) / len(spent_ms):.2f} ms a scan, "
+        f"{out}: {result.map.width_cells} x {result.map.height_cells} cells from {accepted} of "
+        f"{len(result.steps)} scans, {recovered} by the wider search; {sum(spent_ms) / len(spent_ms):.2f} ms a scan, "
         f"at most {max(spent_ms):.2f} (wall time)"
     )

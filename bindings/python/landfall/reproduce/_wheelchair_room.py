@@ -122,7 +122,7 @@ def uhg_08lx() -> Sensor:
 def read_scans(
     room: Room, poses: Sequence[Pose2], rng: np.random.Generator, period_s: float, blockers: Sequence = ()
 ) -> list[Scan]:
-    """What the scanner reads at each pose; blockers[i]: (x, y, radius) of the discs before it, first frame."""
+    """What the scanner reads at each pose; blockers[i]: (x, y, radius) of discs, in the first frame."""
     sensor = uhg_08lx()
     exact = simulate_ranges(room.map, sensor, list(poses)).astype(float)
     bearings = np.radians(STEP_DEG) * (np.arange(BEAMS) - (BEAMS - 1) / 2)
