@@ -30,6 +30,7 @@ inline Scan sonar_scan(const std::shared_ptr<const Sensor>& sensor, const Pose2&
 // A drive along x, 5 cm a scan, with one sonar to the left that reads `ranges_m`.
 inline std::vector<Scan> drive_along(const std::vector<float>& ranges_m, double step_m = 0.05) {
   std::vector<Scan> scans;
+  scans.reserve(ranges_m.size());
   const auto sensor = sonars({90.0});
   for (const float range_m : ranges_m)
     scans.push_back(sonar_scan(sensor, {step_m * static_cast<double>(scans.size()), 0.0, 0.0}, {range_m}));

@@ -212,6 +212,7 @@ TEST(Tbf, WithTheBoxNoEchoBecomesAWall) {
   // A side sonar with echoes, and one at 50 degrees that hears nothing: its target is the side's wall.
   const auto sensor = sonars({90.0, 50.0});
   std::vector<Scan> scans;
+  scans.reserve(60);
   for (int i = 0; i < 60; ++i) scans.push_back(sonar_scan(sensor, {0.05 * i, 0.0, 0.0}, {1.0f, 5.0f}));
   const TbfResult plain = map_by_triangulation(scans);
   const TbfResult box = map_by_triangulation(scans, {.bounding_box = true});

@@ -140,6 +140,7 @@ std::array<Symmetric2, 2> told_and_seen(const std::vector<Point2>& sonars_map, s
   for (std::uint32_t i = 0; i < 40000; ++i) {
     CounterRng rng(seed, i);
     std::vector<SonarReading> readings;
+    readings.reserve(sonars_map.size());
     for (const Point2& sonar_map : sonars_map) readings.push_back(model_reading(sonar_map, target_map, rng));
     const auto crossing = intersect(readings[0].arc, readings[1].arc);
     if (!crossing) continue;

@@ -56,13 +56,13 @@ Points occupied_points(const GridMap& map) {
 class Votes {
  public:
   explicit Votes(const GridMap& map)
-      : bins_(2 * static_cast<std::size_t>(std::hypot(map.width_cells, map.height_cells) + 2.0)),
+      : middle_bin_(static_cast<std::size_t>(std::hypot(map.width_cells, map.height_cells)) + 2),
+        bins_(2 * middle_bin_),
         counts_(headings * bins_, 0) {}
 
   void add(double x, double y, int count) {
     for (int k = 0; k < headings; ++k) {
-      const Line through = line(k, 0);
-      const double bin = std::floor(through.across(x, y)) + static_cast<double>(bins_ / 2);
+      const double bin = std::floor(through_origin(k).across(x, y)) + static_cast<double>(middle_bin_);
       counts_[static_cast<std::size_t>(k) * bins_ + static_cast<std::size_t>(bin)] += count;
     }
   }
@@ -70,17 +70,18 @@ class Votes {
   [[nodiscard]] std::pair<Line, int> most() const {
     const auto peak = std::max_element(counts_.begin(), counts_.end());
     const auto at = static_cast<std::size_t>(peak - counts_.begin());
-    Line found = line(static_cast<int>(at / bins_), 0);
-    found.offset = static_cast<double>(at % bins_) - static_cast<double>(bins_ / 2) + 0.5;
+    Line found = through_origin(static_cast<int>(at / bins_));
+    found.offset = static_cast<double>(at % bins_) - static_cast<double>(middle_bin_) + 0.5;
     return {found, *peak};
   }
 
  private:
-  static Line line(int heading, double offset) {
+  static Line through_origin(int heading) {
     const double angle_rad = std::numbers::pi * heading / headings;
-    return {.cos = std::cos(angle_rad), .sin = std::sin(angle_rad), .offset = offset};
+    return {.cos = std::cos(angle_rad), .sin = std::sin(angle_rad)};
   }
 
+  std::size_t middle_bin_;
   std::size_t bins_;
   std::vector<int> counts_;
 };
