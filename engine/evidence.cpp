@@ -37,7 +37,7 @@ RivalMargin second_margin(std::size_t points) {
 }
 
 double elsewhere_weight(double share, double lead_nats) {
-  constexpr double even_share = 0.925;
+  constexpr double even_share = 0.99;
   constexpr double nats_per_share = 38.0;
   constexpr double nats_per_lead = 1.5;
   constexpr double most_nats = 50.0;

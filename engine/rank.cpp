@@ -110,7 +110,8 @@ double log_mass(const Modes& map, const Mode& mode) {
 // What weighs beside the best pose that it is none.
 double elsewhere(const Modes& map, const Mode& best, double lead_nats) {
   const double lattice_share = share_of(best.best.score, map.points);
-  return elsewhere_weight(std::min(1.0, lattice_share + map.missed_share), lead_nats);
+  const double share = std::min(1.0, lattice_share + map.missed_share);
+  return elsewhere_weight(share + blocked_share * best.verification.blocked, lead_nats);
 }
 
 std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
