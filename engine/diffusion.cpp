@@ -117,6 +117,7 @@ DiffusionRun run_diffusion(const PreparedMap& map, const PosePrior& prior, const
       .focused = options.focused,
       .cells = static_cast<std::size_t>(options.cells),
       .top = {.half_m = options.top_half_m, .half_rad = options.top_half_rad},
+      .most_modes = static_cast<std::size_t>(options.max_modes),
       .measure_time = true,
       .observe = [&observer](const Network& network, std::uint32_t number) { observer(network, number); }};
   const EndPoints points = make_end_points(scan, lattice.resolution_m);

@@ -19,7 +19,7 @@ struct DiffusionOptions {
   int cells = 0;              // 0: chosen from the size of what is searched
   double top_half_m = 0.0;    // half width of the top level's regions; 0: chosen
   double top_half_rad = 0.0;  // of their headings
-  int max_modes = 5;          // networks are run until so many modes are found, or none explains as well
+  int max_modes = 16;         // networks are run until so many modes are found, or none explains as well
   int threads = 0;            // 0: all
   std::uint64_t seed = 0;
   double time_budget_s = 0.0;  // 0: none

@@ -44,8 +44,8 @@ RunLimits choose_limits(double regions, std::size_t cells) {
   const double first = 10.0 * count;  // the initial draws are but a part of a short search
   return {.draws = static_cast<std::int64_t>(draws_per_region * regions + first),
           .rival_draws = static_cast<std::int64_t>(rival_draws_per_region * regions + first),
-          .iterations = static_cast<std::uint32_t>(std::min(
-              4e9, fewest_iterations + iterations_per_draw * draws_per_region * regions / count))};
+          .iterations = static_cast<std::uint32_t>(
+              std::min(4e9, fewest_iterations + iterations_per_draw * draws_per_region * regions / count))};
 }
 
 }  // namespace landfall::internal

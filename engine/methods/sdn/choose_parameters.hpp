@@ -29,9 +29,9 @@ double map_noise_m(const PreparedState& map);
 // number can then be more than one and a half times as fast, and each cell less makes the network less sure.
 std::size_t choose_cells(double regions);
 
-// How long the networks of a scan may go on: so many draws that a region which holds the robot is hit, but for
-// one time in e to the draws per region. Fewer where a mode is known that explains the scan well: rivals. And
-// iterations, should hardly any cell draw.
+// How long the networks of a scan may go on: so many draws that a region which holds the robot is hit, but
+// for one time in e to the draws per region. Fewer where a mode is known that explains the scan well: rivals.
+// And iterations, should hardly any cell draw.
 struct RunLimits {
   std::int64_t draws = 0;
   std::int64_t rival_draws = 0;

@@ -16,7 +16,6 @@ constexpr FocusLevel cluster_reach{.half_m = 0.1, .half_rad = 0.06};
 constexpr double as_well = 0.85;
 // A mode that explains so many beams is taken to be one.
 constexpr double good = 0.8;
-constexpr std::size_t most_modes = 16;
 // Cells may settle beside a mode that is excluded before they find a rival.
 constexpr std::ptrdiff_t enough_worse = 3;
 // 2.2 asks for equilibrium among cells at the finest level. Where nearly all cells have been active for long
@@ -45,12 +44,11 @@ class DiffusionSearch {
     answer_.regions = regions_;
     answer_.cells = cells_;
     answer_.beams = static_cast<int>(bands_.size());
-    for (std::uint32_t number = 0; answer_.modes.size() < most_modes; ++number) {
+    for (std::uint32_t number = 0; answer_.modes.size() < settings_.most_modes; ++number) {
       const std::optional<DiffusionMode> mode = run_network(number);
       if (!mode) break;
       answer_.modes.push_back(*mode);
-      answer_.modes.back().found_ms =
-          std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+      answer_.modes.back().found_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
       answer_.modes.back().found_processor_ms = answer_.counts.step_ms;
       if (none_explains_as_well()) break;
     }

@@ -10,7 +10,15 @@ from pathlib import Path
 
 import numpy as np
 
-from landfall._landfall import Pose2, PreparedMap, Scan, angle_distance, load_map, load_trajectory, translation_distance
+from landfall._landfall import (
+    Pose2,
+    PreparedMap,
+    Scan,
+    angle_distance,
+    load_map,
+    load_trajectory,
+    translation_distance,
+)
 from landfall.logs import load_log
 from landfall.searching import search
 
@@ -32,7 +40,8 @@ def ask_logs(seed: int) -> dict:
         scans = load_log(folder / "query.log.gz").scans
         truths = [pose for _, pose in load_trajectory(folder / "truth.tum")]
         answer[building] = {
-            method: _ask(prepared, scans, truths, method, queries, seed) for method, queries in QUERIES.items()
+            method: _ask(prepared, scans, truths, method, queries, seed)
+            for method, queries in QUERIES.items()
         }
     return answer
 

@@ -27,7 +27,9 @@ FRAME_DPI = 64
 def draw_workshops(places: Sequence[Workshop], poses: Sequence[Sequence[Pose2]], path: Path) -> None:
     """Plans, with some random starts."""
     figure = Figure(figsize=(PANEL_IN * len(places), PANEL_IN), layout="constrained")
-    for axes, workshop, starts in zip(np.atleast_1d(figure.subplots(1, len(places))), places, poses, strict=True):
+    for axes, workshop, starts in zip(
+        np.atleast_1d(figure.subplots(1, len(places))), places, poses, strict=True
+    ):
         _draw_plan(axes, workshop)
         for start in starts:
             _draw_pose(axes, start)
@@ -37,7 +39,7 @@ def draw_workshops(places: Sequence[Workshop], poses: Sequence[Sequence[Pose2]],
 def draw_diffusion(
     workshop: Workshop, snapshots: Sequence[DiffusionSnapshot], truth: Pose2, path: Path
 ) -> None:
-    """Cells at iterations 0, 10, 30, 100 and the end: gray inactive, orange active, red near the finest level."""
+    """Cells at iterations 0, 10, 30, 100 and the end: gray inactive, orange active, red near the finest."""
     by_iteration = {snapshot.iteration: snapshot for snapshot in snapshots}
     shown = [by_iteration[i] for i in SHOWN if i in by_iteration and by_iteration[i] is not snapshots[-1]]
     shown.append(snapshots[-1])
@@ -70,7 +72,11 @@ def draw_frames(workshop: Workshop, snapshots: Sequence[DiffusionSnapshot], trut
         axes.set_title(f"iteration {snapshot.iteration}")
         canvas = FigureCanvasAgg(figure)
         canvas.draw()
-        frames.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("P", palette=Image.Palette.ADAPTIVE, colors=16))
+        frames.append(
+            Image.fromarray(np.asarray(canvas.buffer_rgba())).convert(
+                "P", palette=Image.Palette.ADAPTIVE, colors=16
+            )
+        )
     frames[0].save(
         path, save_all=True, append_images=frames[1:], duration=[150] * (len(frames) - 1) + [2000], loop=0
     )
@@ -89,7 +95,9 @@ def draw_curves(
         ("wall_ms_1", "wall time, 1 thread", "o:"),
         ("wall_ms_2", "wall time, 2 threads", "s:"),
     ):
-        times.plot(cells, [np.nan if row[key] is None else row[key] for row in curve], style, ms=4, label=label)
+        times.plot(
+            cells, [np.nan if row[key] is None else row[key] for row in curve], style, ms=4, label=label
+        )
     times.axvline(chosen, color=TRUTH, lw=1)
     times.set(xscale="log", yscale="log", xlabel="cells", ylabel="until found, median [ms]")
     times.legend(fontsize=7)

@@ -1,10 +1,11 @@
-"""An industrial workshop of 19.2 x 18.13 m, as Beattie & Bishop's: machines, pillars, an office with an open door.
+"""An industrial workshop of 19.2 x 18.13 m: machines, pillars, an office with an open door.
 
 Two 180-degree scanners back to back, 720 beams, 50 m, 1 cm of noise. Everything follows from a seed.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, field
 
@@ -104,7 +105,7 @@ def _add_shell(workshop: Workshop, rng: np.random.Generator) -> None:
             outline += [foot + depth * inward + width * along, foot + width * along]
             at += width + rng.uniform(2.5, 5.0)
         outline.append(end)
-        workshop.walls += [(*p, *q) for p, q in zip(outline[:-1], outline[1:], strict=True)]
+        workshop.walls += [(*p, *q) for p, q in itertools.pairwise(outline)]
 
 
 def _add_office(workshop: Workshop, rng: np.random.Generator) -> None:
