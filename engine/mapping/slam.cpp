@@ -96,9 +96,9 @@ class SlamState {
   void recover(const Scan& scan, const PreparedScan& prepared, const Pose2& T_map_predicted, SlamStep& step) {
     constexpr int widest = 4;
     const double reach_m = options_.recovery_reach_m * (1 + std::min(widest, misses_));
-    if (!(reach_m > 0.0)) return;
-    take_best(match_in_window(map_, scan, prepared, T_map_predicted, {reach_m, std::numbers::pi}, options_),
-              prepared, step);
+    if (reach_m > 0.0)
+      take_best(match_in_window(map_, scan, prepared, T_map_predicted, {reach_m, std::numbers::pi}, options_),
+                prepared, step);
     step.recovered = step.accepted;
     if (!step.accepted) step.T_map_robot = T_map_predicted;
   }
