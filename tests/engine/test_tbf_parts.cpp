@@ -334,18 +334,23 @@ TEST(ReadingWindows, DiscardTheOldestScan) {
 }
 
 TEST(ReadingWindows, PartnersOfAnotherTargetAreNotTaken) {
-  // Its arc crosses the new reading's at (0.2, 0.98), the end of the lobe; the point of the others is at
-  // (0, 1), and for that its range is 20 cm too short.
+  // Its arc crosses the new reading's at (0.2, 0.98), the end of the lobe; the point that six others agree on
+  // is near (0, 1), for which its range is 20 cm too short.
   const Arc other = arc_at(1.0, 0.9, 174.3, 0.804);
   ASSERT_TRUE(intersect(reading_at(0.0)[0].arc, other));
+  for (const bool with_other : {false, true}) {
+    ReadingWindow window(10);
+    if (with_other) window.push(reading_of(other));
+    for (const double x_m : {-0.12, -0.1, -0.08, -0.06, -0.04, -0.02}) window.push(reading_at(x_m));
+    const auto point = window.triangulate(reading_at(0.0)[0]);
+    ASSERT_TRUE(point);
+    EXPECT_EQ(point->triangulations(), 6);
+    EXPECT_NEAR(point->p_map().y_m, 1.0, 0.01);
+  }
+  // Alone it is a partner like any other.
   ReadingWindow window(10);
-  window.push(reading_at(-0.1));
   window.push(reading_of(other));
-  window.push(reading_at(-0.05));
-  const auto point = window.triangulate(reading_at(0.0)[0]);
-  ASSERT_TRUE(point);
-  EXPECT_EQ(point->triangulations(), 2);
-  EXPECT_NEAR(point->p_map().y_m, 1.0, 0.01);
+  EXPECT_TRUE(window.triangulate(reading_at(0.0)[0]));
 }
 
 }  // namespace

@@ -19,9 +19,11 @@ struct TbfOptions {
   double margin_m = 1.0;         // around all echoes and poses
   int window_scans = 50;         // sliding window, the newest scan included; the paper states no size
   double max_deviation_m = 0.1;  // points with sqrt(spectral radius of P_T) from here on leave no trace
-  double scale_m2 = 5e-4;        // A: g = A n_t f, cut at 1
-  double occupied_value = 0.5;   // g at or above: occupied; below, and crossed by a supported reading: free
-  bool bounding_box = false;     // section 3: correct readings first
+  // A: g = A n_t f, cut at 1. Chosen so that about five partners occupy a wall at 1 m; twice as much finds a
+  // few more walls at twice the artefacts (bench/RESULTS.md, Maps from sonars).
+  double scale_m2 = 5e-4;
+  double occupied_value = 0.5;  // g at or above: occupied; below, and crossed by a supported reading: free
+  bool bounding_box = false;    // section 3: correct readings first
   bool box_corrects_no_echo = true;  // a reading without echo lies outside the box, too
   // Section 6. Segments that line up are connected, occupied cells that belong to none are dropped.
   bool connect_walls = false;

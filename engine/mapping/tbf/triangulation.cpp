@@ -36,7 +36,7 @@ bool Triangulation::agrees_with(const SonarReading& partner) const {
   const double off_m = partner.arc.radius_m - sight.distance_m;
   const double variance_m2 =
       partner.range_sigma_m * partner.range_sigma_m + covariance_m2_.quadratic(sight.x, sight.y);
-  return off_m * off_m <= gate_sigmas * gate_sigmas * variance_m2 && in_lobe(partner.arc, p_map_);
+  return off_m * off_m <= gate_sigmas * gate_sigmas * variance_m2;
 }
 
 void Triangulation::refine(const SonarReading& partner) {
