@@ -1,11 +1,13 @@
 // Reduced grids: drawn at their resolution, and finding what the full search finds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "drawing.hpp"
 #include "drawn_map.hpp"
+#include "engine/methods/grid/block_bounds.hpp"
 #include "engine/methods/grid/reduced.hpp"
 #include "landfall/error.hpp"
 #include "landfall/grid_matching.hpp"
@@ -94,7 +96,7 @@ Compared compare(int asked, const PriorAround& prior_around) {
     const SearchResult reduced = search(map, prior, scan, as_published("grid_reduced"));
     EXPECT_FALSE(reduced.proven);
     ++result.asked;
-    result.poses_full += full.counts.poses_scored;
+    result.poses_full += full.counts.poses_covered;
     result.poses_reduced += reduced.counts.poses_scored;
     if (reduced.hypotheses.empty() || full.hypotheses.empty()) continue;
     result.same +=
@@ -128,6 +130,74 @@ TEST(GridReduced, ABudgetThatEndsOnTheWayAnswersNothing) {
       search(map, {Anywhere{}}, testing::look(map, sonar_ring(), {4.0, 2.0, 1.0}), options);
   EXPECT_TRUE(result.hypotheses.empty());
   EXPECT_EQ(result.verdict, Verdict::lost);
+}
+
+// Over maps, scans and priors of all kinds: blocks that are left out hold no rival.
+TEST(GridBounds, LeaveOutNoRival) {
+  std::int64_t asked = 0;
+  std::int64_t left = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Dice dice(static_cast<std::uint64_t>(seed), 11);
+    const PreparedMap map(seed % 2 == 0 ? testing::furnished_room() : testing::random_map(dice, 5, 60));
+    Scan scan = testing::random_scan(dice, map, 30);
+    Sensor sensor = *scan.sensor;
+    for (Beam& beam : sensor.beams)
+      if (dice.chance(0.7)) beam.half_angle_rad = dice.between(0.0, 0.4);
+    scan.sensor = std::make_shared<const Sensor>(sensor);
+    SearchOptions options = testing::random_options(dice, map.grid());
+    options.rotation_step_rad = std::max(options.rotation_step_rad, 0.2);
+    const PosePrior prior = testing::random_prior(dice, map.grid());
+    const internal::Lattice lattice = internal::make_lattice(map.grid(), 0.0, options.rotation_step_rad);
+    const internal::Domain domain =
+        internal::make_domain(prior, lattice, map.state().free_mask(options.robot_radius_m, 1));
+    if (domain.poses == 0) continue;
+    const internal::EndPoints points = internal::make_end_points(scan, lattice.resolution_m);
+    const internal::Query query{.map = map.state(),
+                                .scan = scan,
+                                .points = points,
+                                .lattice = lattice,
+                                .domain = domain,
+                                .options = options,
+                                .threads = 2,
+                                .deadline = {}};
+    const internal::LocalModel model = internal::make_local_model(scan, lattice, options.robot_radius_m);
+    const std::vector<std::int8_t>& global = map.state().global_grid(Contours::corrected);
+    const auto level_of = [&](const std::vector<internal::SharedMask>& masks) {
+      return internal::GridLevel{.query = query,
+                                 .lattice = lattice,
+                                 .mask_of_heading = masks,
+                                 .global = global,
+                                 .model = model,
+                                 .rival_share = 0.1};
+    };
+    const internal::GridLevel level = level_of(domain.mask_of_heading);
+    const internal::LevelScores full = internal::score_level(level);
+    const std::int32_t best = full.rivals.empty() ? 0 : full.rivals.front().score;
+    const internal::BoundedPoses bounded =
+        internal::poses_within_bounds(level, internal::lowest_rival(best, internal::rival_margin(level)));
+    const internal::LevelScores within = internal::score_level(level_of(bounded.mask_of_heading));
+    ASSERT_EQ(within.rivals.size(), full.rivals.size());
+    for (std::size_t i = 0; i < full.rivals.size(); ++i) {
+      EXPECT_EQ(within.rivals[i].pose, full.rivals[i].pose);
+      EXPECT_EQ(within.rivals[i].score, full.rivals[i].score);
+    }
+    asked += full.poses_scored;
+    left += within.poses_scored;
+  }
+  EXPECT_LT(left, asked * 3 / 4);
+}
+
+TEST(GridBounds, AWholeMapIsSearchedWithinBoundsAndProven) {
+  const PreparedMap map(testing::furnished_room());
+  const Scan scan = testing::look(map, sonar_ring(), {4.0, 2.0, 1.0});
+  SearchOptions options = as_published("grid");
+  options.rotation_step_rad = 0.3 * degree;  // more than four million poses
+  const SearchResult bounded = search(map, {Anywhere{}}, scan, options);
+  EXPECT_NE(bounded.method.find("bounds"), std::string::npos) << bounded.method;
+  EXPECT_TRUE(bounded.proven);
+  EXPECT_GT(bounded.counts.bounds_computed, 0);
+  EXPECT_LT(bounded.counts.poses_scored, bounded.counts.poses_covered * 3 / 4);
 }
 
 TEST(GridMatchingTimes, AreThoseOfTheSteps) {

@@ -53,17 +53,26 @@ def test_estimates_are_off_within_the_window():
 def test_grid_reproduces_the_paper(tmp_path, landfall_command, monkeypatch):
     monkeypatch.setattr(grid, "POSES_PER_SEED", 150)
     monkeypatch.setattr(grid, "TIMED", 3)
+    monkeypatch.setenv("LANDFALL_DATA", str(tmp_path / "none"))
     done = landfall_command("reproduce", "grid", "--seeds", 2, "--out", tmp_path / "out", "--json")
     assert done.code == 0, done.err
     result = json.loads(done.out)
     assert result["poses"] == 300
-    assert result["success_corrected"] >= 0.97
-    assert result["success_continuous"] >= 0.92
-    assert result["success_uncorrected"] < result["success_corrected"]
+    assert "corridor8 is skipped" in done.err
+    assert "laser is skipped" in done.err
+    assert "corridor8" not in result
+    assert result["success_corrected"] >= 0.98
+    assert result["success_continuous"] >= 0.97
+    assert result["success_with_crosstalk"] >= 0.95
+    assert result["right_that_are_found"] >= 0.7
+    assert result["found_but_wrong"] <= 0.02
+    assert result["reduced_finds_the_same"] >= 0.95
+    assert 0.0 < result["local_grids_ms"] < 50.0
+    assert 0.0 < result["search_ms"] < 50.0
     by_score = result["by_score"]
+    assert by_score["success_corrected"] >= 0.95
     assert by_score["success_uncorrected"] < by_score["success_corrected"]
     assert by_score["success_rotated_raster"] < by_score["success_corrected"]
-    assert result["found_but_wrong"] < 0.5 * (1.0 - result["success_with_crosstalk"])
     assert (tmp_path / "out" / "grid_rooms.png").stat().st_size > 10_000
     rows = grid.table(result)
     assert {len(row) for row in rows} == {5}

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
+#include "engine/methods/grid/weight_runs.hpp"
 #include "engine/parallel.hpp"
 #include "kernels/score_cells.hpp"
 
@@ -92,24 +94,14 @@ class HeadingScorer {
   }
 
  private:
-  // The cells' weights in runs of equal ones, as score_cells() takes them.
   void lay_out(int heading) {
     const double heading_rad = search_.level.lattice.heading_grid_rad(heading);
     if (search_.level.local_grids == LocalGrids::oriented)
       painter_.paint(heading_rad, grid_);
     else
       grid_ = turned_raster(search_.unturned, heading_rad);
-    offsets_.clear();
-    run_end_.clear();
-    run_weight_.clear();
-    for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
-      if (i == 0 || grid_.weights[i] != grid_.weights[i - 1]) {
-        run_weight_.push_back(grid_.weights[i]);
-        run_end_.push_back(0);
-      }
-      offsets_.push_back(search_.view.offset(grid_.cells[i]));
-      run_end_.back() = static_cast<std::int32_t>(offsets_.size());
-    }
+    runs_.lay_out(grid_,
+                  [this](CellIndex cell, std::int32_t /*weight*/) { return search_.view.offset(cell); });
   }
 
   // From block to block that has poses; as many columns at once as the kernel takes.
@@ -138,12 +130,7 @@ class HeadingScorer {
     const int last_col = std::min(end_block * block_cells - 1, search_.box.last_col);
     const auto cols = static_cast<std::size_t>(last_col + 1 - first_col);
     scores_.resize(kernels::whole_columns(cols));
-    kernels::score_cells(search_.view.at(row, first_col),
-                         {.offset = offsets_.data(),
-                          .run_end = run_end_.data(),
-                          .run_weight = run_weight_.data(),
-                          .runs = run_end_.size()},
-                         cols, scores_.data());
+    kernels::score_cells(search_.view.at(row, first_col), runs_.runs(), cols, scores_.data());
     for (int col = first_col; col <= last_col; ++col)
       if (((bits(allowed, col / block_cells, row) >> (col % block_cells)) & 1U) != 0)
         keep({.pose = {.heading = heading, .row = row, .col = col},
@@ -161,25 +148,44 @@ class HeadingScorer {
   const LevelSearch& search_;
   LocalGridPainter painter_;
   LocalGrid grid_;
-  std::vector<std::int32_t> offsets_, run_end_, run_weight_, scores_;
+  WeightRuns runs_;
+  std::vector<std::int32_t> scores_;
   std::int32_t best_ = 0;
 };
 
-LevelSearch prepare(const GridLevel& level) {
+LocalGrid unturned_of(const LocalModel& model) {
   LocalGrid unturned;
-  LocalGridPainter(level.model).paint(0.0, unturned);
+  LocalGridPainter(model).paint(0.0, unturned);
+  return unturned;
+}
+
+// The robot's own cells tell no pose from another.
+RivalMargin margin_of(const GridLevel& level, const LocalGrid& unturned) {
+  const double robot =
+      level.model.robot_radius_cells > 0.0
+          ? static_cast<double>(level.model.arc_weight()) * static_cast<double>(level.model.cones.size())
+          : 0.0;
+  return {.most_score =
+              level.rival_share * std::max(0.0, static_cast<double>(unturned.perfect_score) - robot)};
+}
+
+LevelSearch prepare(const GridLevel& level) {
+  LocalGrid unturned = unturned_of(level.model);
   const CellBox box = box_of(level);
   // A cell that is turned is rounded once more.
   const int reach = level.model.reach_cells() * 3 / 2 + 1;
-  const double margin = level.rival_share * static_cast<double>(unturned.perfect_score);
   return {.level = level,
           .box = box,
           .view = GlobalView(level.global, level.lattice, box, reach),
-          .margin = {.most_score = margin},
+          .margin = margin_of(level, unturned),
           .unturned = std::move(unturned)};
 }
 
 }  // namespace
+
+RivalMargin rival_margin(const GridLevel& level) {
+  return margin_of(level, unturned_of(level.model));
+}
 
 LevelScores score_level(const GridLevel& level) {
   std::vector<int> headings;

@@ -11,7 +11,7 @@ namespace landfall::internal {
 
 enum class LocalGrids : std::uint8_t { oriented, turned };
 
-// So much less than the best score may a rival have, as a share of the perfect one.
+// So much less than the best score may a rival have, as a share of the perfect one without the robot's cells.
 inline constexpr double grid_rival_share = 0.2;
 
 struct GridLevel {
@@ -31,6 +31,9 @@ struct LevelScores {
   std::int64_t poses_scored = 0;
   bool cut_short = false;  // the time was up
 };
+
+// How much less than the best score a rival may have.
+RivalMargin rival_margin(const GridLevel& level);
 
 // The poses are scored heading by heading, side by side.
 LevelScores score_level(const GridLevel& level);
