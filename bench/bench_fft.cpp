@@ -50,6 +50,11 @@ void add(const std::string& name, const std::function<void(benchmark::State&)>& 
   if (iterations > 0) added->Iterations(iterations)->Repetitions(1);
 }
 
+// What one thread does, by its processor time: other work of the machine hardly shows in it.
+void add_of_one_thread(const std::string& name, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
+}
+
 // The best scores of both ways are branch and bound's.
 bool equals_branch_and_bound(const Place& place) {
   const Scan& scan = place.scans.front();
@@ -111,26 +116,32 @@ bool register_papers_volume(const Place& place) {
                  static_cast<long long>(best_score(expected)));
     return false;
   }
-  for (const int threads : {1, 2})
-    add("volume/128x128x64/threads:" + std::to_string(threads), [options, threads](benchmark::State& state) {
+  const auto by_threads = [options](int threads) {
+    return [options, threads](benchmark::State& state) {
       CorrelationOptions own = options;
       own.threads = threads;
       for (auto _ : state) benchmark::DoNotOptimize(correlation_volume(map, scan, own));
-    });
+    };
+  };
+  add_of_one_thread("volume/128x128x64/cpu", by_threads(1));
+  for (const int threads : {1, 2})
+    add("volume/128x128x64/threads:" + std::to_string(threads), by_threads(threads));
   const int rows = volume.transform_rows;
   const int cols = volume.transform_cols;
-  add("bare_transforms/" + std::to_string(rows) + "x" + std::to_string(cols) + "x64",
-      [rows, cols](benchmark::State& state) {
-        internal::BareTransforms transforms(rows, cols);
-        for (auto _ : state) transforms.run(headings);
-      });
+  const std::string size = std::to_string(rows) + "x" + std::to_string(cols) + "x64";
+  const auto bare = [rows, cols](benchmark::State& state) {
+    internal::BareTransforms transforms(rows, cols);
+    for (auto _ : state) transforms.run(headings);
+  };
+  add_of_one_thread("bare_transforms/" + size + "/cpu", bare);
+  add("bare_transforms/" + size, bare);
   return true;
 }
 
 // cost_model.hpp: time per real and level of a transform, and per block and point of direct sums.
 void register_cost_model(const Place& place) {
   for (const int side : {128, 256, 512, 1024, 2048, 4096})
-    add("cost_model/transform/" + std::to_string(side), [side](benchmark::State& state) {
+    add_of_one_thread("cost_model/transform/" + std::to_string(side), [side](benchmark::State& state) {
       const std::vector<float> field(static_cast<std::size_t>(side / 2) * static_cast<std::size_t>(side / 2),
                                      1.0F);
       const internal::MapSpectra spectra(field, internal::whole_map(side / 2, side / 2, side / 2));
@@ -146,7 +157,7 @@ void register_cost_model(const Place& place) {
           benchmark::Counter(2.0 * reals * std::log2(reals),
                              benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     });
-  add("cost_model/direct", [&place](benchmark::State& state) {
+  add_of_one_thread("cost_model/direct", [&place](benchmark::State& state) {
     const Question question{.place = place,
                             .scan = place.scans.front(),
                             .options = {.rotation_step_rad = std::numbers::pi / 12.0}};
@@ -172,6 +183,7 @@ int main(int argc, char** argv) {
   if (!landfall::bench::equals_branch_and_bound(place)) return 1;
   landfall::bench::register_place(place);
   landfall::bench::register_cost_model(place);
+  benchmark::AddCustomContext("transforms", std::string(landfall::transform_library()));
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

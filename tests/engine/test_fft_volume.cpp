@@ -1,6 +1,7 @@
 // The whole volume of scores against direct sums.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,7 @@
 #include "engine/methods/fft/bare_transforms.hpp"
 #include "landfall/correlation.hpp"
 #include "landfall/error.hpp"
+#include "landfall/search.hpp"
 #include "naive_correlation.hpp"
 #include "rooms.hpp"
 
@@ -45,6 +47,30 @@ TEST(FftVolume, IsTheSameOnAnyNumberOfThreads) {
   const Scan scan = testing::look(map, testing::full_circle(90), {3.0, 2.0, 0.3});
   const CorrelationVolume one = correlation_volume(map, scan, {.rotation_step_rad = 0.1, .threads = 1});
   EXPECT_EQ(correlation_volume(map, scan, {.rotation_step_rad = 0.1, .threads = 2}).scores, one.scores);
+}
+
+// What search() streams, heading by heading, and the volume that is stored.
+TEST(FftVolume, ItsMaximumIsTheStreamedOne) {
+  const PreparedMap map(testing::furnished_room({1.0, 2.0, 0.3}));
+  const double step_rad = 2.0 * std::numbers::pi / 36;
+  for (const double theta_rad : {0.0, 1.1, -2.5}) {
+    SCOPED_TRACE(theta_rad);
+    const Scan scan = testing::look(map, testing::full_circle(60), {4.0, 4.0, theta_rad});
+    const CorrelationVolume volume = correlation_volume(map, scan, {.rotation_step_rad = step_rad});
+    float most = 0.0F;
+    for (int heading = 0; heading < volume.headings; ++heading)
+      for (int row = 0; row < volume.height_cells; ++row)
+        for (int col = 0; col < volume.width_cells; ++col)
+          if (map.grid().at({col, row}) == Occupancy::free)
+            most = std::max(most, volume.at(heading, {col, row}));
+    const SearchResult streamed =
+        search(map, {Anywhere{}}, scan, {.method = "fft", .rotation_step_rad = step_rad});
+    std::int64_t best = 0;
+    for (const Hypothesis& hypothesis : streamed.hypotheses)
+      best = std::max<std::int64_t>(best, hypothesis.score);
+    EXPECT_EQ(std::lround(most), best);
+    EXPECT_GT(best, 0);
+  }
 }
 
 TEST(FftVolume, TakesAnyValues) {

@@ -76,7 +76,7 @@ TEST(TurnMinima, APlateauIsOneEndPointInItsMiddle) {
     ASSERT_EQ(points.size(), 1U);
     EXPECT_NEAR(apart_deg(points[0].bearing_deg, bearing_deg), 0.0, 1e-6);
     EXPECT_NEAR(points[0].distance_m, 2.0, 1e-6);
-    EXPECT_EQ(points[0].count, 4);
+    EXPECT_EQ(points[0].count, 3);
   }
 }
 
@@ -127,7 +127,7 @@ TEST(TurnMinima, AWidePlateauIsTwoEndPoints) {
       turn_of([](double at_deg) { return at_deg >= 60.0 && at_deg <= 120.0 ? 2.0 : 5.0; })));
   std::vector<double> plateau_deg;
   for (const EndPoint& point : points)
-    if (point.count == 4 && point.distance_m < 3.0) plateau_deg.push_back(point.bearing_deg);
+    if (point.count == 3 && point.distance_m < 3.0) plateau_deg.push_back(point.bearing_deg);
   ASSERT_EQ(plateau_deg.size(), 2U);
   EXPECT_NEAR(plateau_deg[0], 75.0, 3.0);
   EXPECT_NEAR(plateau_deg[1], 105.0, 3.0);

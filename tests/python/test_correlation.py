@@ -96,7 +96,7 @@ def test_a_plateau_is_one_end_point_in_its_middle() -> None:
     ranges[10:17] = [2.0] * 7  # 50 to 80 degrees
     scan = landfall.merge_turn_minima([Scan(sensor, [range_m]) for range_m in ranges])
     points = scan.points_robot()
-    assert len(points) == 4
+    assert len(points) == 3
     assert np.hypot(points[:, 0], points[:, 1]) == pytest.approx(2.0)
     assert np.degrees(np.arctan2(points[:, 1], points[:, 0])) == pytest.approx(65.0)
     with pytest.raises(landfall.InvalidArgument):

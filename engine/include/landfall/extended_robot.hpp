@@ -23,7 +23,7 @@ std::vector<Scan> keep_local_minima(std::span<const Scan> turn, bool full_turn =
 
 struct TurnMinimaOptions {
   double equal_sigmas = 3.0;  // of the sensor's range noise: no more sets equal readings apart
-  int plateau_weight = 4;     // end points that a plateau counts for
+  int plateau_weight = 3;     // end points that a plateau counts for
 };
 
 // The minimum filter over all sonars of a full turn together: what of the turn can be trusted, as one scan
@@ -33,7 +33,7 @@ struct TurnMinimaOptions {
 //  - A plateau: a surface met head on, or an edge, is as near anywhere in the cone. Readings that noise alone
 //    sets apart, over half a cone's width or more, none shorter among them, become one end point: at their
 //    mean distance, in the plateau's middle, which may lie between two headings. Where something nearer cuts
-//    the plateau off, the middle is a half-angle inside its other end.
+//    the plateau off, the middle is a half-angle inside its other end; one wider than a cone has two.
 //  - Elsewhere a reading is kept where none within half a turn's step of its bearing is shorter, averaged
 //    with those that noise alone sets apart from it: errors are positive, so of those that look one way the
 //    shortest is right. (Equation 14 asks one sonar's two neighbours, a whole step away.)

@@ -59,6 +59,23 @@ def draw_slices(volumes: dict[str, np.ndarray], cell_m: float, truths: dict[str,
     _save(figure, path)
 
 
+def draw_wrap(grid: GridMap, padded: np.ndarray, wrapped: np.ndarray, path: Path) -> None:
+    """C at one heading by padded transforms and by those that wrap, on one scale, and what wrapping adds."""
+    heading = int(np.argmax(padded.max(axis=(1, 2))))
+    figure = Figure(figsize=(PANEL_IN * 3, 0.8 * PANEL_IN), layout="constrained")
+    titles = ("padded: nothing wraps", "transforms of the map's size (paper)", "what wraps around")
+    slices = (padded[heading], wrapped[heading], wrapped[heading] - padded[heading])
+    walls = np.ma.masked_where(grid.cells != 1, np.ones_like(grid.cells))
+    extent = (0.0, padded.shape[2] * grid.resolution_m, 0.0, padded.shape[1] * grid.resolution_m)
+    for axes, title, values in zip(figure.subplots(1, 3), titles, slices, strict=True):
+        most = float(max(wrapped[heading].max(), padded[heading].max()))
+        image = axes.imshow(values, origin="lower", extent=extent, cmap="viridis", vmin=0.0, vmax=most)
+        axes.imshow(walls, origin="lower", extent=extent, cmap="gray", vmin=0.0, vmax=1.0, alpha=0.6)
+        axes.set(title=title, xlabel="x [m]")
+        figure.colorbar(image, ax=axes, shrink=0.8)
+    _save(figure, path)
+
+
 def draw_headings(volumes: dict[str, np.ndarray], path: Path) -> None:
     """Figure 7: the maximum of C at each heading."""
     figure = Figure(figsize=(2.0 * PANEL_IN, 0.8 * PANEL_IN), layout="constrained")

@@ -11,43 +11,44 @@ as wide a mask finds fewer poses.
 
 from __future__ import annotations
 
-import math
 import statistics
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from landfall._landfall import (
     BareTransforms,
     CorrelationVolume,
-    GridMap,
     Pose2,
     PreparedMap,
     Scan,
     active_isa,
     angle_distance,
-    blurred_map,
     correlation_volume,
     keep_local_minima,
     merge_turn,
     merge_turn_minima,
-    raised_cosine_mask,
     transform_library,
     translation_distance,
 )
 from landfall.progress import progress_bar
+from landfall.reproduce._fft_real import corridor8, intel
+from landfall.reproduce._fft_volume import (
+    HEADINGS,
+    MASKS,
+    STEP_RAD,
+    argmax,
+    correlate,
+    correlate_wrapped,
+    cut_to_walls,
+)
 from landfall.reproduce._sonar_room import CELL_M, TEST_POINTS, Room, make_room, random_poses, read_turn
 from landfall.searching import search
 
-HEADINGS = 64
-MASK_CELLS = 7
-MASKS = 1  # of the environment alone
 POSES_A_ROOM = 15
+WRAPPED_CASES = 60
 RIGHT_M = 0.15
-STEP_RAD = 2.0 * math.pi / HEADINGS
 PAPER_ERROR_DM = {"A": 0.53, "B": 2.48, "C": 3.27}
 TIMED = 15  # repetitions, interleaved
 
@@ -81,8 +82,11 @@ def run(seed: int, seeds: int, out: Path) -> dict:
         name: translation_distance(estimates[name], case.T_map_robot) * 10.0 for name, case in points.items()
     }
     result["paper_error_dm"] = PAPER_ERROR_DM
-    result |= _random_poses(seed, seeds)
+    cases = make_cases(seed, seeds)
+    result |= _random_poses(cases)
+    result["wrapped"] = _wrapped(cases[:WRAPPED_CASES])
     result |= _times(points["A"])
+    result["intel"], result["corridor8"] = intel(), corridor8()
     result["pictures"] = _draw(points, estimates, out)
     return result
 
@@ -100,31 +104,50 @@ def table(result: dict) -> list[list[str]]:
         ["without masks", "not given", _percent(result["success_without_masks"])],
         ["both maps masked", "", _percent(result["success_both_masks"])],
         ["likelihood field, refined pose", "", _percent(result["success_search_refined"])],
-        ["128 x 128 x 64 scores, one thread [ms]", "low load", f"{result['volume_ms']:.1f}"],
-        ["the same, two threads [ms]", "", f"{result['volume_two_threads_ms']:.1f}"],
-        ["64 bare transforms each way, one thread [ms]", "", f"{result['bare_fft_ms']:.1f}"],
+        [
+            f"map cut to its walls, {result['wrapped']['poses']} poses",
+            "",
+            _percent(result["wrapped"]["success_padded"]),
+        ],
+        ["the same, transforms that wrap", "", _percent(result["wrapped"]["success"])],
+        [
+            f"128 x 128 x 64 scores, one thread, {result['transforms']} [ms]",
+            "low load",
+            f"{result['volume_ms']:.1f}",
+        ],
+        ["64 bare transforms each way [ms]", "", f"{result['bare_fft_ms']:.1f}"],
+        ["the volume on two threads, wall clock [ms]", "", f"{result['volume_two_threads_ms']:.1f}"],
+        ["bare transforms, wall clock [ms]", "", f"{result['bare_fft_wall_ms']:.1f}"],
     ]
+    return rows + _real_rows(result)
+
+
+def _real_rows(result: dict) -> list[list[str]]:
+    rows = []
+    if (intel := result["intel"]) is not None:
+        rows += [
+            [
+                f"intel, {intel['scans']} scans: best score is exhaustive's",
+                "",
+                _percent(intel["equal_to_exhaustive"]),
+            ],
+            ["intel, fft, one thread [ms]", "", f"{intel['fft_ms']:.1f}"],
+            ["intel, branch_and_bound, one thread [ms]", "", f"{intel['branch_and_bound_ms']:.1f}"],
+        ]
+    if (corridor := result["corridor8"]) is not None:
+        rows.append(
+            [
+                f"corridor8, {corridor['windows']} windows: within 0.5 m and 10 degrees",
+                "",
+                _percent(corridor["success"]),
+            ]
+        )
     return rows
 
 
 def locate(case: Case, filter: Filter = merge_turn_minima, masks: int = MASKS) -> Pose2:
     """The free cell and heading of the largest correlation: the method's own, unrefined answer."""
     return argmax(case.room.map.grid, correlate(case.room.map, filter(case.turn), masks))
-
-
-def argmax(grid: GridMap, volume: np.ndarray) -> Pose2:
-    """Equation 11, over the free cells."""
-    free = np.where(grid.cells == 0, volume, -np.inf)
-    heading, row, col = np.unravel_index(int(np.argmax(free)), free.shape)
-    x_m, y_m = grid.center_of(int(row), int(col))
-    return Pose2(x_m, y_m, int(heading) * 2.0 * math.pi / len(volume))
-
-
-def correlate(map: PreparedMap, scan: Scan, masks: int = MASKS) -> np.ndarray:
-    """C over heading, row, column. Masks: 1 blurs the environment, 2 the robot as well (the same as the
-    environment twice)."""
-    blurred = blurred_map(map.grid, raised_cosine_mask(MASK_CELLS), masks)
-    return correlation_volume(map, scan, rotation_step_rad=STEP_RAD, values=blurred).scores
 
 
 def _case(room: Room, T_map_robot: Pose2, seed: int) -> Case:
@@ -141,7 +164,7 @@ def make_cases(seed: int, seeds: int) -> list[Case]:
     return cases
 
 
-def _random_poses(seed: int, seeds: int) -> dict:
+def _random_poses(cases: list[Case]) -> dict:
     """Shares of random poses that are found, with everything and with a part left out."""
     ways: dict[str, Callable[[Case], Pose2 | None]] = {
         "success": locate,
@@ -151,7 +174,6 @@ def _random_poses(seed: int, seeds: int) -> dict:
         "success_both_masks": lambda case: locate(case, masks=2),
         "success_search_refined": _search,
     }
-    cases = make_cases(seed, seeds)
     estimates: dict[str, list[Pose2 | None]] = {name: [] for name in ways}
     with progress_bar() as bar:
         task = bar.add_task("poses", total=len(cases))
@@ -169,6 +191,19 @@ def _random_poses(seed: int, seeds: int) -> dict:
         for name, found in estimates.items()
     }
     return {"poses": len(cases), "median_error_dm": statistics.median(errors_dm)} | shares
+
+
+def _wrapped(cases: list[Case]) -> dict:
+    """The map cut to its walls: shares found by our padded transforms, and by the paper's, which wrap."""
+    found: dict[str, list[bool]] = {"success": [], "success_padded": []}
+    for case in cases:
+        map, scan = PreparedMap(cut_to_walls(case.room.map.grid)), merge_turn_minima(case.turn)
+        for name, volume in (
+            ("success", correlate_wrapped(map, scan)),
+            ("success_padded", correlate(map, scan)),
+        ):
+            found[name].append(_is_right(argmax(map.grid, volume), case))
+    return {"poses": len(cases)} | {name: _share(iter(right)) for name, right in found.items()}
 
 
 def _search(case: Case) -> Pose2 | None:
@@ -222,7 +257,7 @@ def _times(case: Case) -> dict:
 
 
 def _draw(points: dict[str, Case], estimates: dict[str, Pose2], out: Path) -> list[str]:
-    from landfall.reproduce._fft_pictures import draw_headings, draw_points, draw_slices
+    from landfall.reproduce._fft_pictures import draw_headings, draw_points, draw_slices, draw_wrap
 
     scans = {name: merge_turn_minima(case.turn) for name, case in points.items()}
     volumes = {name: correlate(case.room.map, scans[name]) for name, case in points.items()}
@@ -232,7 +267,9 @@ def _draw(points: dict[str, Case], estimates: dict[str, Pose2], out: Path) -> li
     draw_points(maps, turns, truths, estimates, out / "points.png")
     draw_slices(volumes, CELL_M, truths, out / "slices.png")
     draw_headings(volumes, out / "headings.png")
-    return [str(out / name) for name in ("points.png", "slices.png", "headings.png")]
+    cut = PreparedMap(cut_to_walls(maps["C"]))
+    draw_wrap(cut.grid, correlate(cut, scans["C"]), correlate_wrapped(cut, scans["C"]), out / "wrap.png")
+    return [str(out / name) for name in ("points.png", "slices.png", "headings.png", "wrap.png")]
 
 
 def _percent(share: float) -> str:
