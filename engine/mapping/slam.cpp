@@ -125,7 +125,10 @@ class SlamState {
       ray.from_map = to_map.point(ray.from_map);
       ray.to_map = to_map.point(ray.to_map);
     }
-    const std::vector<Point2> gone = map_.grid.add_scan(rays);
+    const std::vector<Point2> gone =
+        map_.grid.add_scan(rays, [this](const Point2& p_map, const EchoRay& ray) {
+          return map_.surfaces.is_noise_of_a_wall(p_map, ray.to_map, ray.noise_m);
+        });
     map_.surfaces.forget(gone);
     map_.surfaces.add_scan(prepared.surfaces, step.T_map_robot);
     map_.path.push_back(step.T_map_robot);

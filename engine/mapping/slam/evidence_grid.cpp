@@ -79,13 +79,13 @@ CellIndex EvidenceGrid::first() const {
   return {.col = bits_.first().col * word_bits, .row = bits_.first().row};
 }
 
-std::vector<Point2> EvidenceGrid::add_scan(std::span<const EchoRay> rays) {
+std::vector<Point2> EvidenceGrid::add_scan(std::span<const EchoRay> rays, const Spares& spares) {
   if (rays.empty()) return {};
   cover(rays);
   next_scan();
   for (const EchoRay& ray : rays) hit(cell_of(ray.to_map));
   protect(rays);
-  for (const EchoRay& ray : rays) miss_along(ray);
+  for (const EchoRay& ray : rays) miss_along(ray, spares);
   return std::exchange(gone_, {});
 }
 
@@ -152,7 +152,7 @@ void EvidenceGrid::protect_around(const Point2& p_map, int radius_cells) {
 
 // Every cell before the one where the ray ends, as raycast::CellWalk passes them; without its checks, for
 // this is most of a scan's time.
-void EvidenceGrid::miss_along(const EchoRay& ray) {
+void EvidenceGrid::miss_along(const EchoRay& ray, const Spares& spares) {
   const double cell_m = options_.resolution_m;
   const CellIndex start = cell_of(ray.from_map);
   const CellIndex end = cell_of(ray.to_map);
@@ -166,7 +166,7 @@ void EvidenceGrid::miss_along(const EchoRay& ray) {
   const std::ptrdiff_t to_row = dy > 0.0 ? cells_.width() : -cells_.width();
   Cell* cell = &cells_[start];
   for (int steps = std::abs(end.col - start.col) + std::abs(end.row - start.row); steps > 0; --steps) {
-    if (cell->seen_in != scan_) miss(*cell, ray);
+    if (cell->seen_in != scan_) miss(*cell, ray, spares);
     // Both ways at once: which comes next is hard to foresee.
     const bool along_row = next_col < next_row;
     next_col += along_row ? per_col : 0.0;
@@ -175,14 +175,18 @@ void EvidenceGrid::miss_along(const EchoRay& ray) {
   }
 }
 
-void EvidenceGrid::miss(Cell& value, const EchoRay& ray) {
-  const bool was_occupied = is_occupied(value);
+void EvidenceGrid::miss(Cell& value, const EchoRay& ray, const Spares& spares) {
   value.seen_in = scan_;
-  value.evidence = static_cast<std::int16_t>(std::max<int>(least_, value.evidence + miss_));
-  if (!was_occupied) return;
+  const auto missed = static_cast<std::int16_t>(std::max<int>(least_, value.evidence + miss_));
+  if (!is_occupied(value)) {
+    value.evidence = missed;
+    return;
+  }
   const CellIndex cell = cells_.cell_at(&value - cells_.data());
   const Point2 p_map{.x_m = (cell.col + 0.5) * options_.resolution_m,
                      .y_m = (cell.row + 0.5) * options_.resolution_m};
+  if (spares && spares(p_map, ray)) return;
+  value.evidence = missed;
   const bool near = distance(ray.from_map, p_map) <= options_.deletion_range_m;
   if (near && ++value.through >= scans_to_delete) value.evidence = std::min(value.evidence, free_);
   if (is_occupied(value)) return;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -31,8 +32,10 @@ class EvidenceGrid {
 
   explicit EvidenceGrid(const SlamOptions& options);
 
+  // Whether an obstacle cell that a ray passes is a wall's all the same; asked of occupied cells alone.
+  using Spares = std::function<bool(const Point2& p_map, const EchoRay& ray)>;
   // The echoes of a scan. Returns the centres of obstacle cells that are gone: they were seen through.
-  std::vector<Point2> add_scan(std::span<const EchoRay> rays);
+  std::vector<Point2> add_scan(std::span<const EchoRay> rays, const Spares& spares = {});
 
   [[nodiscard]] bool empty() const { return cells_.width() == 0; }
   [[nodiscard]] double resolution_m() const { return options_.resolution_m; }
@@ -58,8 +61,8 @@ class EvidenceGrid {
   void hit(CellIndex cell);
   void protect(std::span<const EchoRay> rays);
   void protect_around(const Point2& p_map, int radius_cells);
-  void miss_along(const EchoRay& ray);
-  void miss(Cell& value, const EchoRay& ray);
+  void miss_along(const EchoRay& ray, const Spares& spares);
+  void miss(Cell& value, const EchoRay& ray, const Spares& spares);
   [[nodiscard]] bool is_occupied(const Cell& cell) const { return cell.evidence >= occupied_; }
   void mark(CellIndex cell, bool occupied);
   [[nodiscard]] CellBox known_box() const;

@@ -18,6 +18,7 @@ constexpr double first_gate_m = 0.25;
 constexpr double last_gate_m = 0.12;
 constexpr double gate_decay = 0.85;
 constexpr double settled = 2e-5;  // metres and radians
+constexpr int well_known = 5;     // points of a surface that is no chance
 constexpr double join_m = 0.075;
 constexpr double forget_m = 0.05;
 // How far the start may be off where no surface tells.
@@ -155,6 +156,22 @@ std::optional<double> SurfaceMap::distance(const Point2& p_map, const Point2& no
   const std::int32_t near = nearest(p_map, normal_map, 1.5 * square_m);
   if (near == none) return std::nullopt;
   return std::abs(surfaces_[static_cast<std::size_t>(near)].distance(p_map));
+}
+
+bool SurfaceMap::is_noise_of_a_wall(const Point2& p_map, const Point2& p_end_map, double noise_m) const {
+  const CellIndex center = square_of(p_map);
+  for (int row = center.row - 1; row <= center.row + 1; ++row)
+    for (int col = center.col - 1; col <= center.col + 1; ++col)
+      for (const std::int32_t slot : slots_.at({.col = col, .row = row}).surface) {
+        if (slot == none) continue;
+        const Surface& surface = surfaces_[static_cast<std::size_t>(slot)];
+        if (surface.count < well_known) continue;
+        const double before_m = surface.distance(p_map);
+        if (std::abs(before_m) > noise_m || surface.distance(p_end_map) < -noise_m) continue;
+        const double along_m = std::hypot(p_map.x_m - surface.mean.x_m, p_map.y_m - surface.mean.y_m);
+        if (along_m <= square_m) return true;
+      }
+  return false;
 }
 
 }  // namespace landfall::internal

@@ -28,6 +28,9 @@ class SurfaceMap {
   // How far the nearest surface that faces the same way runs from here, without sign; nothing where none is
   // near.
   [[nodiscard]] std::optional<double> distance(const Point2& p_map, const Point2& normal_map) const;
+  // A place before a surface, within what noise may move its echoes, that a ray to p_end passes without going
+  // through the surface: an echo there was noise of the wall's, which the ray says nothing about.
+  [[nodiscard]] bool is_noise_of_a_wall(const Point2& p_map, const Point2& p_end_map, double noise_m) const;
   [[nodiscard]] std::size_t memory_bytes() const {
     return slots_.memory_bytes() + surfaces_.capacity() * sizeof(Surface);
   }

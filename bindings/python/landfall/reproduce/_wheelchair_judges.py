@@ -11,8 +11,8 @@ from landfall._landfall import GridMap, Pose2, Scan, angle_distance, match_scans
 from landfall.pictures import in_map
 from landfall.reproduce._wheelchair_room import FIRST_CORNER, SIDES_M, Room
 
-OFF_WALL_M = 0.12  # cells that belong to a wall
-OFF_CORNER_M = 0.12  # where another wall's cells mix in
+OFF_WALL_M = 0.08  # cells that belong to a wall
+OFF_CORNER_M = 0.07  # where another wall's cells mix in
 LEAST_CELLS = 5
 TRACE_M = 0.12  # a cell so far from every wall is somebody's trace
 NEAR_M = 2.0
