@@ -157,6 +157,7 @@ class RangePosterior {
   std::vector<Neighbourhood> likeliest_places(const std::vector<Candidate>& all) {
     std::vector<Neighbourhood> places = neighbourhoods(query_, all, most_neighbourhoods, most_members);
     std::vector<Pose2> T_map_best;
+    T_map_best.reserve(places.size());
     for (const Neighbourhood& place : places)
       T_map_best.push_back(query_.lattice.T_map_robot(all[place.front()].pose));
     constexpr double steps = 3.0;  // the likeliest pose may be so far from the best score
@@ -170,6 +171,7 @@ class RangePosterior {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return log_place[a] > log_place[b]; });
     std::vector<Neighbourhood> sorted;
+    sorted.reserve(places.size());
     for (const std::size_t place : order) sorted.push_back(std::move(places[place]));
     return sorted;
   }

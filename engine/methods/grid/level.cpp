@@ -174,10 +174,11 @@ LevelSearch prepare(const GridLevel& level) {
   const CellBox box = box_of(level);
   // A cell that is turned is rounded once more.
   const int reach = level.model.reach_cells() * 3 / 2 + 1;
+  const RivalMargin margin = margin_of(level, unturned);
   return {.level = level,
           .box = box,
           .view = GlobalView(level.global, level.lattice, box, reach),
-          .margin = margin_of(level, unturned),
+          .margin = margin,
           .unturned = std::move(unturned)};
 }
 
