@@ -39,6 +39,8 @@ class Workshop:
     def is_free(self, x_m: float, y_m: float) -> bool:
         """Whether the robot fits there."""
         point = np.array([x_m, y_m])
+        if (point < 0.0).any() or (point > self.size_m).any():
+            return False
         if any(_contains(corners, point) for corners in self.solids):
             return False
         walls = np.array(self.walls)
