@@ -198,8 +198,8 @@ TEST_F(BandsOfARoom, LeaveOutInvalidBeamsAndAllowNothingHitWhereNothingWasHit) {
 }
 
 TEST(Parameters, GrowWithWhatIsSearched) {
-  EXPECT_EQ(internal::choose_cells(1.0), 128);
-  EXPECT_EQ(internal::choose_cells(25'000.0), 1000);
+  EXPECT_EQ(internal::choose_cells(1.0), 96);
+  EXPECT_EQ(internal::choose_cells(26'000.0), 540);
   EXPECT_EQ(internal::choose_cells(1e9), 4096);
   const internal::RunLimits limits = internal::choose_limits(1000.0, 128);
   EXPECT_GT(limits.draws, limits.rival_draws);

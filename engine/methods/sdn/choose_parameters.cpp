@@ -28,9 +28,9 @@ double map_noise_m(const PreparedState& map) {
 }
 
 std::size_t choose_cells(double regions) {
-  // Measured in workshops of 350 m2 (bench/RESULTS.md): 4 tests a region, 50 tests a cell.
-  constexpr double cells_per_region = 0.5 * 4.0 / 50.0;
-  constexpr double fewest = 128.0;
+  // Measured in workshops of 350 m2 (bench/RESULTS.md): 2 to 3 tests a region, 130 tests a cell.
+  constexpr double cells_per_region = 2.7 / 130.0;
+  constexpr double fewest = 96.0;
   constexpr double most = 4096.0;
   return static_cast<std::size_t>(std::clamp(cells_per_region * regions, fewest, most));
 }
