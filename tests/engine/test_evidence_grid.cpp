@@ -126,6 +126,15 @@ TEST(EvidenceGrid, DeletesWhatItSeesThrough) {
   }
 }
 
+TEST(EvidenceGrid, SparesWhatItIsToldTo) {
+  EvidenceGrid grid(coarse());
+  grid.add_scan(std::vector{ray(0.5, 0.5, 3.5, 0.5)});
+  const auto spares = [](const Point2& p_map, const EchoRay&) { return p_map == Point2{3.5, 0.5}; };
+  for (int scan = 0; scan < 9; ++scan)
+    EXPECT_TRUE(grid.add_scan(std::vector{ray(0.5, 0.5, 6.5, 0.5)}, spares).empty());
+  EXPECT_EQ(drawn(grid, 8, 1), "...#..#?\n");
+}
+
 TEST(EvidenceGrid, OneWrongEchoDeletesNothing) {
   EvidenceGrid grid(coarse());
   for (int scan = 0; scan < 30; ++scan) {

@@ -164,6 +164,19 @@ TEST(SurfaceMap, ConvergesToTheMean) {
   EXPECT_FALSE(map.distance({0.0, 0.7}, {-1.0, 0.0}).has_value());
 }
 
+// A wall along x = 0 that faces left; a ray along it in the noise before it, and one through it.
+TEST(SurfaceMap, TellsAWallsNoiseFromWhatIsSeenThrough) {
+  internal::SurfaceMap map;
+  std::vector<internal::SurfacePoint> points;
+  for (double y = -1.0; y < 1.0; y += 0.02)
+    points.push_back({.p = {0.0, y}, .normal = {-1.0, 0.0}, .has_normal = true});
+  for (int scan = 0; scan < 3; ++scan) map.add_scan(points, {});
+  EXPECT_TRUE(map.is_noise_of_a_wall({-0.03, 0.2}, {-0.04, 3.0}, 0.05));   // passes before it
+  EXPECT_FALSE(map.is_noise_of_a_wall({-0.03, 0.2}, {2.0, 0.4}, 0.05));    // goes through it
+  EXPECT_FALSE(map.is_noise_of_a_wall({-0.20, 0.2}, {-0.2, 3.0}, 0.05));   // too far before it
+  EXPECT_FALSE(map.is_noise_of_a_wall({-0.03, 1.5}, {-0.03, 3.0}, 0.05));  // beside its end
+}
+
 class ScanMatchers : public ::testing::TestWithParam<std::pair<ScanMatcher, double>> {};
 
 TEST_P(ScanMatchers, FindTheStep) {

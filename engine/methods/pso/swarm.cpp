@@ -63,6 +63,7 @@ std::vector<Eigen::Vector3d> start_pattern(const SwarmOptions& options) {
   const int along = options.particles / 4;
   const int turned = options.particles - 2 * along;
   std::vector<Eigen::Vector3d> start;
+  start.reserve(static_cast<std::size_t>(options.particles));
   for (int i = 0; i < along; ++i) start.emplace_back(spread(i, along, options.reach_m), 0.0, 0.0);
   for (int i = 0; i < along; ++i) start.emplace_back(0.0, spread(i, along, options.reach_m), 0.0);
   for (int i = 0; i < turned; ++i) start.emplace_back(0.0, 0.0, spread(i, turned, options.reach_rad));
