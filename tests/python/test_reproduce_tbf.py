@@ -14,7 +14,7 @@ from landfall.reproduce._map_scores import Truth, found, score, wall_distance
 from landfall.reproduce._office_corridor import STEP_M, drive, make_corridor
 from landfall.reproduce._sonar_echoes import RANGE_MAX_M, SPECULAR_RAD, pioneer_2dx, read_sonars
 from landfall.reproduce._tbf_real import WallFit, corridor8
-from landfall.reproduce._tbf_scitos import agreement, recover_motion
+from landfall.reproduce._tbf_scitos import agreement, lap_period, recover_motion
 
 # A box of 8 x 6 m, its lower wall y = 0.
 BOX = [(-4.0, 0.0, 4.0, 0.0), (4.0, 0.0, 4.0, 6.0), (4.0, 6.0, -4.0, 6.0), (-4.0, 6.0, -4.0, 0.0)]
@@ -142,6 +142,8 @@ def test_scans_that_read_alike_tell_how_far_poses_drift():
     laps = [np.full(16, 1.0 + 0.1 * (i % 200), dtype=np.float32) for i in range(400)]
     scans = [landfall.Scan(sensor, row) for row in laps]
     poses = [Pose2(0.01 * (i % 200) + 0.5 * (i >= 200), 0.0, 0.0) for i in range(400)]
+    assert abs((lap_period(scans + scans[:150]) or 0) - 200) <= 8
+    assert lap_period(scans[:50]) is None
     result = agreement(scans, poses)
     assert result["pairs"] == 200
     assert result["median_off_m"] == pytest.approx(0.5)

@@ -2,7 +2,8 @@
 
 Every fifth scan is matched, alone, by method `fft` to the map of those before it, near where constant motion
 leads. There is no truth. What can be seen: how well the laps agree. Scans of different laps whose readings
-are nearly the same were taken at nearly the same place; how far apart are their poses?
+are nearly the same were taken at nearly the same place; how far apart are their poses? And the readings
+repeat after every lap, whatever the poses: is that how often the recovered robot turned?
 """
 
 from __future__ import annotations
@@ -38,6 +39,7 @@ STEP_RAD = math.radians(1.0)
 MARGIN_M = 1.5
 FIELD_SIGMA_M = 0.1
 LAP_APART = 150  # matched scans
+LEAST_LAP, LAG_STEP = 40, 8  # of the search for the lap's length
 ALIKE_M = 0.03  # median difference of two scans' readings
 
 
@@ -50,6 +52,10 @@ def scitos24(out: Path, scans: int | None = None) -> dict | None:
     poses = [scan.T_map_robot or Pose2() for scan in located]
     result: dict = agreement(located, poses)
     result["scans"] = len(located)
+    headings_rad = np.unwrap([pose.theta_rad for pose in poses])
+    result["turns"] = float(abs(headings_rad[-1] - headings_rad[0]) / (2.0 * math.pi))
+    period = lap_period(located)
+    result["laps_by_readings"] = len(located) / period if period else None
     result["driven_m"] = sum(translation_distance(a, b) for a, b in itertools.pairwise(poses))
     result["pictures"] = [str(_draw(located, poses, out))]
     return result
@@ -109,6 +115,32 @@ def agreement(located: list[Scan], poses: list[Pose2]) -> dict[str, float]:
         "p90_off_deg": math.degrees(float(np.percentile(off_rad, 90))),
         "median_of_any_two_m": _median_distance(poses),
     }
+
+
+def lap_period(located: list[Scan]) -> int | None:
+    """After how many scans the readings first repeat, whatever the poses; None: too few scans.
+
+    The first of the lags that fit within twice the best one's misfit: several laps fit as well as one.
+    """
+    readings = np.array([scan.ranges_m for scan in located], dtype=float)
+    lags = range(LEAST_LAP, len(readings) // 2, LAG_STEP)
+    if not lags:
+        return None
+    misfit = np.array([_difference_after(readings, lag) for lag in lags])
+    fits = misfit <= 2.0 * misfit.min()
+    first = int(np.argmax(fits))
+    dip = first + int(np.argmin(np.append(fits[first:], False)))
+    return lags[first + int(np.argmin(misfit[first:dip]))]
+
+
+def _difference_after(readings: np.ndarray, lag: int) -> float:
+    """Median over scans of how unlike the one is that is most alike of those about `lag` later."""
+    starts = len(readings) - lag - LAG_STEP
+    nearest = np.full(starts, np.inf)
+    for later in range(lag - LAG_STEP, lag + LAG_STEP + 1):
+        differences = np.abs(readings[later : later + starts] - readings[:starts])
+        nearest = np.minimum(nearest, np.median(differences, axis=1))
+    return float(np.median(nearest))
 
 
 def _median_distance(poses: list[Pose2]) -> float:
