@@ -37,9 +37,9 @@ RivalMargin second_margin(std::size_t points) {
 }
 
 double elsewhere_weight(double share, double lead_nats) {
-  constexpr double even_share = 0.99;
+  constexpr double even_share = 0.925;
   constexpr double nats_per_share = 38.0;
-  constexpr double nats_per_lead = 1.5;
+  constexpr double nats_per_lead = 0.95;
   constexpr double most_nats = 50.0;
   constexpr double longest_lead_nats = 4.5;
   const double lead = std::clamp(lead_nats, 0.0, longest_lead_nats);
