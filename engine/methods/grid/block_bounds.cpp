@@ -46,7 +46,7 @@ class WindowTable {
   void fill(const std::vector<std::int8_t>& global, const Lattice& lattice) {
     const int height = lattice.height_cells;
     const int width = lattice.width_cells;
-    const auto padded = static_cast<std::size_t>(width + 2 * (side - 1));
+    const std::size_t padded = static_cast<std::size_t>(width) + 2 * (side - 1);
     std::vector<std::int8_t> high(padded);
     std::vector<std::int8_t> low(padded);
     for (int row = 1 - side; row < height; ++row) {
@@ -55,7 +55,7 @@ class WindowTable {
       for (int r = std::max(0, row); r < std::min(height, row + side); ++r) {
         const std::int8_t* values = global.data() + std::int64_t{r} * width;
         for (int col = 0; col < width; ++col) {
-          const auto at = static_cast<std::size_t>(col + side - 1);
+          const std::size_t at = static_cast<std::size_t>(col) + (side - 1);
           high[at] = std::max(high[at], values[col]);
           low[at] = std::min(low[at], values[col]);
         }
@@ -63,14 +63,14 @@ class WindowTable {
       for (std::size_t beyond = 0; beyond < side - 1; ++beyond)
         high[beyond] = low[beyond] = high[padded - 1 - beyond] = low[padded - 1 - beyond] = 0;
       for (int col = 1 - side; col < width; ++col) {
-        const auto at = static_cast<std::ptrdiff_t>(col + side - 1);
+        const std::ptrdiff_t at = std::ptrdiff_t{col} + (side - 1);
         cells_[index(row, col, 1)] = *std::max_element(high.begin() + at, high.begin() + at + side);
         cells_[index(row, col, -1)] = *std::min_element(low.begin() + at, low.begin() + at + side);
       }
     }
   }
   static std::size_t size(int rows, int cols) {
-    return 2 * side * side * static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols) +
+    return std::size_t{2 * side * side} * static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols) +
            kernels::score_columns;
   }
   [[nodiscard]] std::size_t index(int row, int col, std::int32_t sign) const {
@@ -111,7 +111,7 @@ class HeadingBounds {
     kept->counted = -1;
     constexpr int per_word = block_cells / side;
     bool any = false;
-    const auto cols = static_cast<std::size_t>(poses.cols * per_word);
+    const std::size_t cols = static_cast<std::size_t>(poses.cols) * per_word;
     bounds_.resize(kernels::whole_columns(cols));
     for (int row = 0; row < poses.rows * per_word; ++row) {
       std::uint64_t* words = kept->words.data() + std::ptrdiff_t{row / per_word} * poses.cols;
@@ -121,7 +121,7 @@ class HeadingBounds {
       while (first <= last && !has_poses(first)) ++first;
       while (first <= last && !has_poses(last)) --last;
       if (first > last) continue;
-      const auto count = static_cast<std::size_t>(last - first + 1);
+      const std::size_t count = static_cast<std::size_t>(last - first) + 1;
       kernels::score_cells(table_.at(poses.first_row * per_word + row, poses.first_col * per_word + first),
                            runs_.runs(), count, bounds_.data());
       bounds_computed += static_cast<std::int64_t>(count);
