@@ -5,8 +5,8 @@ paper's three points, and random poses in seeded rooms. Sonars meet the walls wh
 them by cells.
 
 The minimum filter is merge_turn_minima, over all sonars together; the paper's own, sonar by sonar, is
-reported beside it. The environment's map is blurred by the mask once (equation 15), the robot's not: twice
-as wide a mask finds fewer poses.
+reported beside it. The environment's map is blurred by the mask (equation 15), the robot's not; with both
+blurred (equation 16) about as many poses are found.
 """
 
 from __future__ import annotations
