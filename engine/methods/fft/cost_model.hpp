@@ -4,21 +4,21 @@
 
 #include <cmath>
 
+#include "engine/methods/fft/real_fft.hpp"
+
 namespace landfall::internal {
 
 // One transform of a plane of reals, with its share of what is done beside it (drawing, product, maxima).
 // Planes beyond the caches cost more.
 inline double transform_ns(int rows, int cols) {
-  constexpr double ns_per_real_and_level = 0.12;
   constexpr double cached_reals = 1 << 18;
-  constexpr double beyond_caches = 1.6;
   constexpr double much_larger_reals = 1 << 23;
-  constexpr double far_beyond_caches = 4.2;
+  const TransformCost cost = RealFft::cost();
   const double reals = static_cast<double>(rows) * cols;
   double slower = 1.0;
-  if (reals > cached_reals) slower = beyond_caches;
-  if (reals > much_larger_reals) slower = far_beyond_caches;
-  return slower * ns_per_real_and_level * reals * std::log2(reals);
+  if (reals > cached_reals) slower = cost.beyond_caches;
+  if (reals > much_larger_reals) slower = cost.far_beyond_caches;
+  return slower * cost.ns_per_real_and_level * reals * std::log2(reals);
 }
 
 // One block of 8 x 8 poses at one heading, point by point.

@@ -31,6 +31,13 @@ struct AlignedAllocator {
 using Plane = std::vector<float, AlignedAllocator<float>>;
 using Spectrum = std::vector<std::complex<float>, AlignedAllocator<std::complex<float>>>;
 
+// Nanoseconds of one thread, and how many times as much beyond the caches.
+struct TransformCost {
+  double ns_per_real_and_level = 0.0;
+  double beyond_caches = 1.0;
+  double far_beyond_caches = 1.0;
+};
+
 // Planes of rows x cols, row by row; their spectra of rows x (cols / 2 + 1). `cols` is even. Neither
 // direction scales: there and back multiplies by rows x cols. Safe from several threads.
 class RealFft {
@@ -55,6 +62,8 @@ class RealFft {
 
   // The library's name: "fftw" or "eigen".
   static std::string_view library();
+  // What its transforms cost (cost_model.hpp).
+  static TransformCost cost();
 
  private:
   struct Plans;

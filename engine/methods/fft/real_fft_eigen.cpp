@@ -72,4 +72,9 @@ std::string_view RealFft::library() {
   return "eigen";
 }
 
+// Measured from 128 x 128 to 4096 x 4096: 0.70 to 0.97. Beyond the caches it is no slower.
+TransformCost RealFft::cost() {
+  return {.ns_per_real_and_level = 0.9};
+}
+
 }  // namespace landfall::internal

@@ -66,4 +66,8 @@ std::string_view RealFft::library() {
   return "fftw";
 }
 
+TransformCost RealFft::cost() {
+  return {.ns_per_real_and_level = 0.12, .beyond_caches = 1.6, .far_beyond_caches = 4.2};
+}
+
 }  // namespace landfall::internal
