@@ -30,6 +30,7 @@ std::shared_ptr<const Sensor> sonar() {
 std::vector<Scan> turn_of(const std::function<double(double)>& range_m) {
   std::vector<Scan> turn;
   const auto sensor = sonar();
+  turn.reserve(steps);
   for (int i = 0; i < steps; ++i)
     turn.push_back({.sensor = sensor, .ranges_m = {static_cast<float>(range_m(i * 360.0 / steps))}});
   return turn;
