@@ -25,8 +25,8 @@ double map_noise_m(const PreparedState& map);
 
 // The number of cells. A network's tests are those that find the region which holds the robot, in proportion
 // to the number of regions and hardly dependent on the cells, and those in which the cells gather there and
-// focus, in proportion to the cells. So many cells are taken that both are equal: by the model no other number
-// can be more than twice as fast, measured it is 1.4 times; fewer cells give a rougher mean.
+// focus, in proportion to the cells. So many cells are taken that both are equal: by the model no other
+// number can be more than twice as fast, measured it is 1.4 times; fewer cells give a rougher mean.
 std::size_t choose_cells(double regions);
 
 // How long the networks of a scan may go on: so many draws that a region which holds the robot is hit, but
