@@ -231,7 +231,7 @@ TEST(PoseSampler, DrawsFromThePriorAlone) {
       mean_x_m += T_map_robot.x_m;
     }
   }
-  EXPECT_NEAR(in_window, draws / 4, 5 * std::sqrt(draws * 0.25 * 0.75));
+  EXPECT_NEAR(in_window, 0.25 * draws, 5 * std::sqrt(draws * 0.25 * 0.75));
   EXPECT_NEAR(mean_x_m / (draws - in_window), 6.0, 0.03);
 }
 
