@@ -153,13 +153,13 @@ def intel(data: Path, out: Path) -> dict:
 
 
 def wean_hall(data: Path, out: Path) -> dict:
-    """No truth: judged by the picture."""
-    scans = landfall.load_log(data / "wean_hall" / "robotdata1.log.gz").scans
+    """No truth: judged by the picture, and by odometry's length."""
+    folder = data / "wean_hall"
+    scans = landfall.load_log(folder / "robotdata1.log.gz").scans
     result, numbers = run(scans, **ALONE)
     poses = [step.T_map_robot for step in result.steps]
-    draw(
-        result.map, poses, landfall.load_map(data / "wean_hall" / "map.yaml").grid, out / "slam_wean_hall.png"
-    )
+    numbers["length"] = path_length(poses) / path_length([scan.T_odom_robot for scan in scans])
+    draw(result.map, poses, landfall.load_map(folder / "map.yaml").grid, out / "slam_wean_hall.png")
     return numbers
 
 
@@ -192,7 +192,7 @@ def draw(
         draw_built_map(ours, grid, path)
     else:
         placed = landfall.GridMap(grid.cells, grid.resolution_m, T_reference_map * grid.T_map_grid)
-        draw_map(ours, placed, known_box(placed), 6.0)
+        draw_map(ours, placed, known_box(reference), 6.0)
         xy = np.array([(pose.x_m, pose.y_m) for pose in (T_reference_map * one for one in path)])
         ours.plot(xy[:, 0], xy[:, 1], color=PATH, linewidth=1.0)
     ours.set_title("SLAM: map and path")
