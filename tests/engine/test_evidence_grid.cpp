@@ -149,6 +149,7 @@ TEST(EvidenceGrid, OpenedDoorIsNoObstacleAndAClosedOneIs) {
   EvidenceGrid grid(coarse());
   const auto look = [&](double x) {
     std::vector<EchoRay> rays;
+    rays.reserve(3);
     for (int row = 0; row < 3; ++row) rays.push_back(ray(0.5, 1.5, row == 1 ? x : 4.5, row + 0.5));
     grid.add_scan(rays);
   };

@@ -66,8 +66,8 @@ TEST(Swarm, FliesByItsKeyAlone) {
 class FreeMethods : public ::testing::TestWithParam<const char*> {
  protected:
   const PreparedMap map_{testing::furnished_room(), {.name = {}}};
-  const Pose2 T_map_truth_{.x_m = 3.13, .y_m = 2.27, .theta_rad = 0.4};
-  const Scan scan_ = testing::look(map_, testing::full_circle(180), T_map_truth_);
+  const Pose2 truth_{.x_m = 3.13, .y_m = 2.27, .theta_rad = 0.4};
+  const Scan scan_ = testing::look(map_, testing::full_circle(180), truth_);
 };
 
 TEST_P(FreeMethods, FindTheRobotInAWindow) {
@@ -76,10 +76,10 @@ TEST_P(FreeMethods, FindTheRobotInAWindow) {
   ASSERT_FALSE(result.hypotheses.empty());
   const Hypothesis& best = result.hypotheses.front();
   // The field is of cells' centres, half a cell behind the faces that the scan met.
-  EXPECT_LT(translation_distance(best.T_map_robot, T_map_truth_), 0.08);
-  EXPECT_LT(angle_distance(best.T_map_robot.theta_rad, T_map_truth_.theta_rad), 0.02);
+  EXPECT_LT(translation_distance(best.T_map_robot, truth_), 0.08);
+  EXPECT_LT(angle_distance(best.T_map_robot.theta_rad, truth_.theta_rad), 0.02);
   // The method's own pose is not bound to the lattice of 10 cm and half a degree.
-  EXPECT_LT(translation_distance(best.T_map_robot_unrefined, T_map_truth_), 0.15);
+  EXPECT_LT(translation_distance(best.T_map_robot_unrefined, truth_), 0.15);
   EXPECT_GT(best.score, 60);
   EXPECT_LE(best.score, 180);  // end points in occupied cells
   EXPECT_FALSE(result.proven);

@@ -77,8 +77,9 @@ def _summary(out: Path, result: SlamResult) -> str:
     accepted = sum(step.accepted for step in result.steps)
     recovered = sum(step.recovered for step in result.steps)
     spent_ms = [step.match_ms + step.insert_ms for step in result.steps]
+    mean_ms = sum(spent_ms) / len(spent_ms)
     return (
         f"{out}: {result.map.width_cells} x {result.map.height_cells} cells from {accepted} of "
-        f"{len(result.steps)} scans, {recovered} by the wider search; {sum(spent_ms) / len(spent_ms):.2f} ms a scan, "
+        f"{len(result.steps)} scans, {recovered} by the wider search; {mean_ms:.2f} ms a scan, "
         f"at most {max(spent_ms):.2f} (wall time)"
     )
