@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/methods/sdn/choose_parameters.hpp"
 #include "engine/methods/sdn/cluster.hpp"
 #include "engine/methods/sdn/equilibrium.hpp"
+#include "engine/parallel.hpp"
 
 namespace landfall::internal {
 namespace {
@@ -23,6 +25,9 @@ constexpr std::ptrdiff_t enough_worse = 3;
 // mappings: that place is a mode too, a bad one, without which the next network goes on.
 constexpr double saturation = 0.75;
 constexpr int most_saturated = 120;
+// Networks side by side that look for rivals of a good mode, each with its part of the draws: so many at any
+// number of threads, for the same answer.
+constexpr std::uint32_t rival_networks = 2;
 
 // The networks of one query.
 class DiffusionSearch {
@@ -44,35 +49,75 @@ class DiffusionSearch {
     answer_.regions = regions_;
     answer_.cells = cells_;
     answer_.beams = static_cast<int>(bands_.size());
-    for (std::uint32_t number = 0; answer_.modes.size() < settings_.most_modes; ++number) {
-      const std::optional<DiffusionMode> mode = run_network(number);
-      if (!mode) break;
-      answer_.modes.push_back(*mode);
-      answer_.modes.back().found_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-      answer_.modes.back().found_processor_ms = answer_.counts.step_ms;
-      if (none_explains_as_well()) break;
+    std::uint32_t number = 0;
+    while (answer_.modes.size() < settings_.most_modes) {
+      const std::size_t known = answer_.modes.size();
+      const std::uint32_t networks = has_good_mode() ? rival_networks : 1;
+      run_networks(number, networks);
+      number += networks;
+      const double found_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+      for (std::size_t i = known; i < answer_.modes.size(); ++i) {
+        answer_.modes[i].found_ms = found_ms;
+        answer_.modes[i].found_processor_ms = answer_.counts.step_ms;
+      }
+      if (answer_.modes.size() == known || none_explains_as_well()) break;
     }
     return std::move(answer_);
   }
 
  private:
-  std::optional<DiffusionMode> run_network(std::uint32_t number) {
-    std::vector<Pose2> T_map_mode;
-    for (const DiffusionMode& mode : answer_.modes) T_map_mode.push_back(mode.T_map_robot);
-    const Excluded excluded{
-        .T_map_mode = T_map_mode,
-        .reach = {.half_m = std::max(query_.options.distinct_translation_m, levels_.front().half_m),
-                  .half_rad = std::max(query_.options.distinct_rotation_rad, levels_.front().half_rad)}};
-    Network network({.levels = levels_, .sampler = sampler_, .bands = bands_, .rays = rays_}, excluded,
+  struct Outcome {
+    std::optional<DiffusionMode> mode{};
+    NetworkCounts counts{};
+    std::int64_t iterations = 0;
+  };
+
+  // Networks number first, first + 1, ..., all without the modes known now. Of modes that are the same, the
+  // first.
+  void run_networks(std::uint32_t first, std::uint32_t count) {
+    const RunLimits limits = choose_limits(regions_, cells_);
+    const std::int64_t most_draws = has_good_mode() ? limits.rival_draws : limits.draws;
+    const std::int64_t draws = std::max<std::int64_t>(0, most_draws - answer_.counts.draws) / count;
+    const std::vector<Pose2> T_map_mode = poses_of_modes();
+    std::vector<Outcome> outcomes(count);
+    const bool one_by_one = settings_.observe || settings_.measure_time;
+    parallel_for(count, one_by_one ? 1 : query_.threads, [&](std::size_t i) {
+      outcomes[i] = run_network(first + static_cast<std::uint32_t>(i), T_map_mode, draws);
+    });
+    for (const Outcome& outcome : outcomes) {
+      answer_.counts.add(outcome.counts);
+      answer_.iterations += outcome.iterations;
+      const std::vector<Pose2> T_map_known = poses_of_modes();
+      const bool room = answer_.modes.size() < settings_.most_modes;
+      if (room && outcome.mode && !excluded(T_map_known).contains(outcome.mode->T_map_robot))
+        answer_.modes.push_back(*outcome.mode);
+    }
+  }
+
+  [[nodiscard]] Outcome run_network(std::uint32_t number, std::span<const Pose2> T_map_mode,
+                                    std::int64_t draws) const {
+    Network network({.levels = levels_, .sampler = sampler_, .bands = bands_, .rays = rays_},
+                    excluded(T_map_mode),
                     {.cells = cells_,
                      .seed = query_.options.seed,
                      .run = number,
                      .threads = query_.threads,
                      .measure_time = settings_.measure_time});
-    std::optional<DiffusionMode> mode = until_equilibrium(network, number);
-    answer_.counts.add(network.counts());
-    answer_.iterations += network.iterations();
-    return mode;
+    Outcome outcome{.mode = until_equilibrium(network, number, draws)};
+    outcome.counts = network.counts();
+    outcome.iterations = network.iterations();
+    return outcome;
+  }
+
+  [[nodiscard]] std::vector<Pose2> poses_of_modes() const {
+    std::vector<Pose2> T_map_mode;
+    for (const DiffusionMode& mode : answer_.modes) T_map_mode.push_back(mode.T_map_robot);
+    return T_map_mode;
+  }
+  [[nodiscard]] Excluded excluded(std::span<const Pose2> T_map_mode) const {
+    return {.T_map_mode = T_map_mode,
+            .reach = {.half_m = std::max(query_.options.distinct_translation_m, levels_.front().half_m),
+                      .half_rad = std::max(query_.options.distinct_rotation_rad, levels_.front().half_rad)}};
   }
 
   [[nodiscard]] int most_agreeing() const {
@@ -91,13 +136,12 @@ class DiffusionSearch {
     return has_good_mode() && worse >= enough_worse;
   }
 
-  std::optional<DiffusionMode> until_equilibrium(Network& network, std::uint32_t number) {
+  std::optional<DiffusionMode> until_equilibrium(Network& network, std::uint32_t number,
+                                                 std::int64_t draws) const {
     const RunLimits limits = choose_limits(regions_, cells_);
     Equilibrium equilibrium({.cells = cells_});
     int saturated = 0;
-    const std::int64_t most_draws = has_good_mode() ? limits.rival_draws : limits.draws;
-    while (answer_.counts.draws + network.counts().draws < most_draws &&
-           network.iterations() < limits.iterations) {
+    while (network.counts().draws < draws && network.iterations() < limits.iterations) {
       if (query_.out_of_time()) break;
       network.step();
       if (settings_.observe) settings_.observe(network, number);

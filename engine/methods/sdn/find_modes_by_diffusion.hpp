@@ -1,4 +1,4 @@
-// Networks run one after the other, each without the modes found before.
+// Networks run one after the other, each without the modes found before; two side by side look for rivals.
 #pragma once
 
 #include <cstddef>
