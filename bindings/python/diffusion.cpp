@@ -76,9 +76,8 @@ void bind_diffusion(nb::module_& module) {
                                        .seed = seed,
                                        .time_budget_s = time_budget_s,
                                        .snapshot_iterations = snapshot_iterations};
-        const PosePrior given = prior;
         const nb::gil_scoped_release released;
-        return run_diffusion(map, given, scan, options);
+        return run_diffusion(map, prior, scan, options);
       },
       "map"_a, "prior"_a, "scan"_a, nb::kw_only(), "focused"_a = defaults.focused, "cells"_a = defaults.cells,
       "top_half_m"_a = defaults.top_half_m, "top_half_rad"_a = defaults.top_half_rad,
