@@ -153,13 +153,22 @@ def measured_parts(measured: dict, run: dict[str, str]) -> dict[str, str]:
         if measured[name]:
             parts[name] = table(target_table(targets, measured[name]))
     for name, result in measured["papers"].items():
-        parts[f"reproduce_{name}"] = f"{run['date']}\n\n{table(experiment(name).table(result))}"
+        for part, rows in paper_tables(name, result).items():
+            parts[part] = f"{run['date']}\n\n{table(rows)}"
     for name, (date, rows) in suite_sections(OUT).items():
         parts[name] = f"{date[:10]}\n\n{table(rows)}"
     if GROWTH.is_file():
         date, found = load_growth(GROWTH)
         parts["growth"] = "\n\n".join((date[:10], table(exponent_table(found)), table(growth_table(found))))
     return parts
+
+
+def paper_tables(name: str, result: dict) -> dict[str, list[list[str]]]:
+    """Name of a measured part -> rows, of one experiment."""
+    paper = experiment(name)
+    more = paper.more_tables(result) if hasattr(paper, "more_tables") else {}
+    parts = {f"reproduce_{name}_{which}": rows for which, rows in more.items()}
+    return {f"reproduce_{name}": paper.table(result), **parts}
 
 
 def print_tables(measured: dict) -> None:

@@ -1,8 +1,8 @@
 """Experiments of published papers, one module each.
 
 A module has run(seed, seeds, out), which returns what `landfall reproduce PAPER --json` prints and draws
-pictures in the folder `out`, and table(result), the rows that a person reads. Modules that only help others
-begin with an underscore.
+pictures in the folder `out`, and table(result), the rows that a person reads; some have more_tables(result),
+by name, for the page of results. Modules that only help others begin with an underscore.
 """
 
 from __future__ import annotations

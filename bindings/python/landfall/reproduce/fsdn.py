@@ -152,6 +152,23 @@ class _Tally:
         self.found.append(result.verdict == "found")
 
 
+def more_tables(result: dict) -> dict[str, list[list[str]]]:
+    """Time until the right mode is found, by the number of cells."""
+    header = ["processor ms, 1 thread", "wall ms, 1 thread", "wall ms, 2 threads", "right mode", "iterations"]
+    rows = [["cells", *header]]
+    for row in result["curve"]:
+        times = [row[key] for key in ("cpu_ms_1", "wall_ms_1", "wall_ms_2")]
+        rows.append(
+            [
+                str(row["cells"]),
+                *("-" if ms is None else f"{ms:.1f}" for ms in times),
+                f"{100.0 * row['success_1']:.0f} %",
+                f"{row['iterations']:.0f}",
+            ]
+        )
+    return {"cells": rows}
+
+
 def is_right(estimate: Pose2, truth: Pose2) -> bool:
     return (
         abs(estimate.x_m - truth.x_m) <= RIGHT_M

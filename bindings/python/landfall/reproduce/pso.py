@@ -324,5 +324,17 @@ def table(result: dict) -> list[list[str]]:
     return rows
 
 
+PAPER_SIDES_MM = (4482, 601, 780, 781, 500, 1405, 2040, 6603, 4422)  # Table III, proposed method
+
+
+def more_tables(result: dict) -> dict[str, list[list[str]]]:
+    """The nine sides, of the refined swarm."""
+    rows = [["side", "true [mm]", "paper [mm]", "first room [mm]", "worst of all rooms [mm]", "[%]"]]
+    for (name, side), paper_mm in zip(result["pso"]["sides"].items(), PAPER_SIDES_MM, strict=True):
+        lengths = [f"{side['true_mm']:.0f}", f"{paper_mm}", f"{side['first_mm']:.0f}"]
+        rows.append([name, *lengths, f"{side['worst_error_mm']:.1f}", f"{side['worst_error_percent']:.2f}"])
+    return {"sides": rows}
+
+
 def _cell(value: float | None, digits: int) -> str:
     return "" if value is None else f"{value:.{digits}f}"
