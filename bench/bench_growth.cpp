@@ -14,8 +14,8 @@
 #include "bench/context.hpp"
 #include "bench/growth_cases.hpp"
 #include "bench/places.hpp"
-#include "bench/thread_time.hpp"
 #include "engine/lattice.hpp"
+#include "engine/thread_time.hpp"
 #include "landfall/search.hpp"
 
 namespace landfall::bench {
@@ -78,9 +78,9 @@ double lattice_poses(const PreparedMap& map, const SearchOptions& options) {
 bool search_all(const std::vector<Question>& questions, const SearchOptions& options,
                 std::vector<double>& search_ms) {
   for (const Question& question : questions) {
-    const double start_ms = thread_time_ms();
+    const double start_ms = internal::thread_time_ms();
     const SearchResult result = search(question.map, anywhere, question.scan, options);
-    search_ms.push_back(thread_time_ms() - start_ms);
+    search_ms.push_back(internal::thread_time_ms() - start_ms);
     if (!result.proven) return false;
   }
   return true;

@@ -14,6 +14,18 @@
 
 namespace landfall {
 namespace internal {
+namespace {
+
+std::vector<Point2> occupied_centers(const GridMap& grid) {
+  std::vector<Point2> points;
+  for (int row = 0; row < grid.height_cells; ++row)
+    for (int col = 0; col < grid.width_cells; ++col)
+      if (grid.at({.col = col, .row = row}) == Occupancy::occupied)
+        points.push_back(grid.center_of({.col = col, .row = row}));
+  return points;
+}
+
+}  // namespace
 
 PreparedState::PreparedState(GridMap grid, std::optional<WallMap> walls, PrepareOptions options)
     : grid_(std::move(grid)), options_(std::move(options)), plan_(std::move(walls)) {
@@ -84,6 +96,10 @@ const OccupiedBits& PreparedState::occupied_bits() const {
   return occupied_bits_.get([this] { return internal::occupied_bits(grid_); });
 }
 
+const IcpTarget& PreparedState::icp_target() const {
+  return icp_target_.get([this] { return IcpTarget(occupied_centers(grid_), true); });
+}
+
 const WallMap& PreparedState::walls() const {
   return plan_ ? *plan_ : walls_.get([this] { return to_walls(grid_); });
 }
@@ -146,6 +162,7 @@ std::size_t PreparedState::memory_bytes() const {
   if (const auto* grid = corrected_grid_.if_built()) bytes += grid->capacity();
   if (const auto* grid = uncorrected_grid_.if_built()) bytes += grid->capacity();
   if (const auto* bits = occupied_bits_.if_built()) bytes += 4 * bits->words.capacity();
+  if (const auto* target = icp_target_.if_built()) bytes += target->memory_bytes();
   if (const auto* walls = walls_.if_built()) bytes += sizeof(Wall) * walls->walls.capacity();
   if (plan_) bytes += sizeof(Wall) * plan_->walls.capacity();
   if (const auto* scene = scene_.if_built()) bytes += scene->memory_bytes();

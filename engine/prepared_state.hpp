@@ -12,6 +12,7 @@
 #include "engine/methods/fft/map_spectra.hpp"
 #include "engine/methods/grid/global_grid.hpp"
 #include "engine/methods/pso/occupied_bits.hpp"
+#include "engine/scan_matching/icp.hpp"
 #include "engine/search_tables.hpp"
 #include "engine/tile_layout.hpp"
 #include "landfall/prepared_map.hpp"
@@ -62,6 +63,8 @@ class PreparedState {
   [[nodiscard]] std::shared_ptr<const MapSpectra> field_spectra(int reach_cells) const;
   // Of method `pso`.
   [[nodiscard]] const OccupiedBits& occupied_bits() const;
+  // Of methods `icp`: the centres of occupied cells, in the map's frame, with normals.
+  [[nodiscard]] const IcpTarget& icp_target() const;
   [[nodiscard]] const WallMap& walls() const;
   // Made from a floor plan, whose walls are exact.
   [[nodiscard]] bool is_plan() const { return plan_.has_value(); }
@@ -85,6 +88,7 @@ class PreparedState {
   Lazy<std::vector<std::int8_t>> corrected_grid_;
   Lazy<std::vector<std::int8_t>> uncorrected_grid_;
   Lazy<OccupiedBits> occupied_bits_;
+  Lazy<IcpTarget> icp_target_;
   Lazy<WallMap> walls_;
   Lazy<raycast::Scene> scene_;
   mutable std::mutex reduced_mutex_;

@@ -40,6 +40,11 @@ double missed_share(const Query& query) {
   return std::clamp(0.5 * (turned + moved) / 12.0 / (sigma_cells * sigma_cells) - always, 0.0, 1.0);
 }
 
+bool are_one_mode(const SearchOptions& options, const Pose2& T_map_a, const Pose2& T_map_b) {
+  return translation_distance(T_map_a, T_map_b) < options.distinct_translation_m &&
+         angle_distance(T_map_a.theta_rad, T_map_b.theta_rad) < options.distinct_rotation_rad;
+}
+
 }  // namespace
 
 Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, std::size_t most,
@@ -54,9 +59,7 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
         free_candidates.empty() ? std::nullopt : std::optional(free_candidates[i]);
     const Pose2 T_map_robot = free ? free->T_map_robot : query.lattice.T_map_robot(candidate.pose);
     const bool known = std::any_of(T_map_mode.begin(), T_map_mode.end(), [&](const Pose2& T_map_other) {
-      return translation_distance(T_map_other, T_map_robot) < query.options.distinct_translation_m &&
-             angle_distance(T_map_other.theta_rad, T_map_robot.theta_rad) <
-                 query.options.distinct_rotation_rad;
+      return are_one_mode(query.options, T_map_other, T_map_robot);
     });
     if (known) continue;
     if (T_map_mode.size() >= most_counted) break;
@@ -84,11 +87,8 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
 void drop_repeated(const SearchOptions& options, std::vector<Mode>& modes) {
   std::vector<Mode> distinct;
   for (Mode& mode : modes) {
-    const Pose2& T_map_robot = mode.hypothesis.T_map_robot;
     const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Mode& other) {
-      const Pose2& T_map_other = other.hypothesis.T_map_robot;
-      return translation_distance(T_map_other, T_map_robot) < options.distinct_translation_m &&
-             angle_distance(T_map_other.theta_rad, T_map_robot.theta_rad) < options.distinct_rotation_rad;
+      return are_one_mode(options, other.hypothesis.T_map_robot, mode.hypothesis.T_map_robot);
     });
     if (!known) distinct.push_back(std::move(mode));
   }
@@ -98,6 +98,7 @@ void drop_repeated(const SearchOptions& options, std::vector<Mode>& modes) {
 namespace {
 
 struct Ranked {
+  const Modes* map;  // whose mode it is
   Mode mode;
   double log_mass;  // prior x likelihood
 };
@@ -108,10 +109,10 @@ double log_mass(const Modes& map, const Mode& mode) {
 }
 
 // What weighs beside the best pose that it is none.
-double elsewhere(const Modes& map, const Mode& best, double lead_nats) {
-  const double lattice_share = share_of(best.best.score, map.points);
-  const double share = std::min(1.0, lattice_share + map.missed_share);
-  return elsewhere_weight(share + blocked_share * best.verification.blocked, lead_nats);
+double elsewhere(const Ranked& best, double lead_nats) {
+  const double lattice_share = share_of(best.mode.best.score, best.map->points);
+  const double share = std::min(1.0, lattice_share + best.map->missed_share);
+  return elsewhere_weight(share + blocked_share * best.mode.verification.blocked, lead_nats);
 }
 
 std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
@@ -126,7 +127,7 @@ std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
       // A pose that would be lost by itself is no rival of one that explains the scan.
       if (any_explains && !map.by_ranges && mode.hypothesis.explained < least_explained)
         weight -= unexplained_nats;
-      all.push_back({mode, weight});
+      all.push_back({&map, mode, weight});
     }
   }
   const bool as_they_come = maps.size() == 1 && maps.front().in_order;
@@ -154,8 +155,7 @@ double log_total(const std::vector<Modes>& maps, const std::vector<Ranked>& all)
   for (const Ranked& one : all) total = log_add(total, one.log_mass);
   const Ranked& best = all.front();
   const double lead_nats = best.log_mass - (all.size() > 1 ? all[1].log_mass : nothing);
-  return log_add(total,
-                 best.log_mass + std::log(unseen_weight + elsewhere(maps.front(), best.mode, lead_nats)));
+  return log_add(total, best.log_mass + std::log(unseen_weight + elsewhere(best, lead_nats)));
 }
 
 // The same by ranges: the posterior knows all the poses that it compared.

@@ -5,7 +5,7 @@
 
 #include "bench/peers/comparisons.hpp"
 #include "bench/peers/textbook.hpp"
-#include "bench/thread_time.hpp"
+#include "engine/thread_time.hpp"
 
 namespace landfall::bench {
 namespace {
@@ -16,10 +16,10 @@ const SearchOptions ours{.method = "branch_and_bound", .threads = 1};
 double median_ms(const Textbook& textbook, const internal::Lattice& lattice, const std::vector<Scan>& scans) {
   std::vector<double> search_ms;
   for (const Scan& scan : scans) {
-    const double start_ms = thread_time_ms();
+    const double start_ms = internal::thread_time_ms();
     const internal::EndPoints points = internal::make_end_points(scan, lattice.resolution_m);
     benchmark::DoNotOptimize(textbook.search(points, lattice));
-    search_ms.push_back(thread_time_ms() - start_ms);
+    search_ms.push_back(internal::thread_time_ms() - start_ms);
   }
   return quantile(search_ms, 0.5);
 }
@@ -66,10 +66,10 @@ void time_textbook(benchmark::State& state, const Place& place, const TextbookAt
   double nodes = 0.0;
   for (auto _ : state)
     for (const Scan& scan : place.scans) {
-      const double start_ms = thread_time_ms();
+      const double start_ms = internal::thread_time_ms();
       const internal::EndPoints points = internal::make_end_points(scan, peer.lattice.resolution_m);
       nodes += static_cast<double>(peer.textbook->search(points, peer.lattice).nodes);
-      search_ms.push_back(thread_time_ms() - start_ms);
+      search_ms.push_back(internal::thread_time_ms() - start_ms);
     }
   state.counters["nodes/scan"] = nodes / static_cast<double>(search_ms.size());
   state.counters["median_ms"] = quantile(search_ms, 0.5);
@@ -81,9 +81,9 @@ void time_landfall(benchmark::State& state, const Place& place) {
   std::vector<double> search_ms;
   for (auto _ : state)
     for (const Scan& scan : place.scans) {
-      const double start_ms = thread_time_ms();
+      const double start_ms = internal::thread_time_ms();
       const SearchResult result = search(place.map, anywhere, scan, ours);
-      search_ms.push_back(thread_time_ms() - start_ms);
+      search_ms.push_back(internal::thread_time_ms() - start_ms);
       state.SetLabel(result.method);
     }
   state.counters["median_ms"] = quantile(search_ms, 0.5);

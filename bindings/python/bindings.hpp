@@ -14,7 +14,7 @@ void bind_results(nanobind::module_& module);
 void bind_search(nanobind::module_& module);
 void bind_slam(nanobind::module_& module);
 void bind_correlation(nanobind::module_& module);
-void bind_grid_matching(nanobind::module_& module);
+void bind_timing(nanobind::module_& module);
 void bind_diffusion(nanobind::module_& module);
 void bind_logs(nanobind::module_& module);
 void bind_sonar_mapping(nanobind::module_& module);

@@ -86,15 +86,6 @@ void bind_diffusion(nb::module_& module) {
       "What methods `sdn` and `fsdn` do, observed: the modes before refinement, counts and times, and, of "
       "the first\nnetwork, its cells at some iterations and at its end. 0 cells or a top of 0: chosen. "
       "Raises InvalidArgument.");
-  module.def(
-      "time_bare_rays",
-      [](const PreparedMap& map, const Sensor& sensor, const PosesArgument& T_map_robot) {
-        const std::vector<Pose2> poses = poses_from(T_map_robot, "time_bare_rays");
-        const nb::gil_scoped_release released;
-        return time_bare_rays(map, sensor, poses);
-      },
-      "map"_a, "sensor"_a, "T_map_robot"_a,
-      "Processor time in seconds for casting one ray from each pose, beams in turn: the raycaster alone.");
 }
 
 }  // namespace landfall::python

@@ -17,7 +17,7 @@ NB_MODULE(_landfall, module) {
   bind_search(module);
   bind_slam(module);
   bind_correlation(module);
-  bind_grid_matching(module);
+  bind_timing(module);
   bind_diffusion(module);
   bind_logs(module);
   bind_sonar_mapping(module);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "engine/methods/sdn/pose_sampler.hpp"
+#include "engine/lattice_score.hpp"
+#include "engine/pose_sampler.hpp"
 
 namespace landfall::internal {
 namespace {
@@ -29,35 +29,6 @@ Pose2 middle_of(const PoseSampler& sampler, std::uint64_t seed) {
   return {.x_m = sum.x_m / draws_for_middle,
           .y_m = sum.y_m / draws_for_middle,
           .theta_rad = std::atan2(sin_sum, cos_sum)};
-}
-
-std::int32_t field_score(const Query& query, const HeadingCells& cells, const LatticePose& pose) {
-  const GridMap& grid = query.map.grid();
-  const std::vector<std::uint8_t>& field = query.map.field();
-  std::int32_t sum = 0;
-  for (std::size_t i = 0; i < cells.col.size(); ++i) {
-    const CellIndex cell{.col = pose.col + cells.col[i], .row = pose.row + cells.row[i]};
-    if (grid.contains(cell)) sum += field[grid.index(cell)];
-  }
-  return sum;
-}
-
-std::optional<Candidate> beside(const Query& query, const Pose2& T_map_robot) {
-  const LatticePose nearest = query.lattice.nearest(T_map_robot);
-  const int step = query.lattice.step_cells;
-  std::optional<Candidate> best;
-  HeadingCells cells;
-  for (int turn = -1; turn <= 1; ++turn) {
-    LatticePose pose{.heading = (nearest.heading + turn + query.lattice.headings) % query.lattice.headings};
-    cells_at_heading(query.points, query.lattice, pose.heading, cells);
-    for (pose.row = nearest.row - step; pose.row <= nearest.row + step; pose.row += step)
-      for (pose.col = nearest.col - step; pose.col <= nearest.col + step; pose.col += step) {
-        if (!query.domain.contains(pose)) continue;
-        const Candidate one{.pose = pose, .score = field_score(query, cells, pose)};
-        if (!best || better(one, *best)) best = one;
-      }
-  }
-  return best;
 }
 
 }  // namespace
@@ -107,7 +78,8 @@ Proposal propose_free(const Query& query, std::vector<FreeCandidate> found, std:
   };
   std::vector<Pair> pairs;
   for (const FreeCandidate& one : found)
-    if (const auto candidate = beside(query, one.T_map_robot)) pairs.push_back({*candidate, one});
+    if (const auto candidate = best_on_lattice_beside(query, one.T_map_robot))
+      pairs.push_back({*candidate, one});
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return better(a.candidate, b.candidate); });
   Proposal proposal;

@@ -27,15 +27,6 @@ std::vector<Point2> end_points_robot(const Query& query) {
   return points;
 }
 
-std::vector<Point2> occupied_centers(const GridMap& grid) {
-  std::vector<Point2> points;
-  for (int row = 0; row < grid.height_cells; ++row)
-    for (int col = 0; col < grid.width_cells; ++col)
-      if (grid.at({.col = col, .row = row}) == Occupancy::occupied)
-        points.push_back(grid.center_of({.col = col, .row = row}));
-  return points;
-}
-
 // Matched from every start; the own score is that of pso.
 template <class Matched>
 Proposal propose_matched(const Query& query, const CenterReach& reach, const Matched& match) {
@@ -55,7 +46,7 @@ Proposal propose_matched(const Query& query, const CenterReach& reach, const Mat
 
 Proposal propose_icp(const Query& query, bool to_line) {
   const std::vector<Point2> moving = end_points_robot(query);
-  const IcpTarget target(occupied_centers(query.map.grid()), to_line);
+  const IcpTarget& target = query.map.icp_target();
   const IcpOptions options{.to_line = to_line, .reach_m = icp_reach.translation_m};
   return propose_matched(query, icp_reach, [&](const Pose2& T_map_start) {
     return target.match(moving, T_map_start, options).T_fixed_moving;

@@ -5,34 +5,22 @@
 // symmetry); tolerances, pyramid, cells and limits follow from the scan and the prior (4.2); rays are cast by
 // the engine's scene, so that nothing is precomputed per place. Random numbers are keyed by (seed, network of
 // the scan, cell, iteration), so that a batch equals the loop over its scans.
-#include <algorithm>
+#include <utility>
 #include <vector>
 
-#include "engine/lattice_score.hpp"
+#include "engine/methods/free_search.hpp"
 #include "engine/methods/sdn/find_modes_by_diffusion.hpp"
 #include "engine/methods/table.hpp"
 
 namespace landfall::internal {
 namespace {
 
-struct Scored {
-  Candidate candidate;
-  FreeCandidate free;
-};
-
 Proposal propose(const Query& query, bool focused) {
   const DiffusionAnswer answer = find_modes_by_diffusion(query, {.focused = focused});
-  std::vector<Scored> scored;
+  std::vector<FreeCandidate> found;
   for (const DiffusionMode& mode : answer.modes)
-    if (const auto candidate = best_on_lattice_beside(query, mode.T_map_robot))
-      scored.push_back({*candidate, {.T_map_robot = mode.T_map_robot, .score = mode.agreeing}});
-  std::stable_sort(scored.begin(), scored.end(),
-                   [](const Scored& a, const Scored& b) { return better(a.candidate, b.candidate); });
-  Proposal proposal;
-  for (const Scored& one : scored) {
-    proposal.candidates.push_back(one.candidate);
-    proposal.free_candidates.push_back(one.free);
-  }
+    found.push_back({.T_map_robot = mode.T_map_robot, .score = mode.agreeing});
+  Proposal proposal = propose_free(query, std::move(found));
   proposal.counts.poses_scored = answer.counts.draws + answer.counts.copies;
   proposal.counts.rays_cast = answer.counts.tests;
   return proposal;

@@ -137,6 +137,10 @@ IcpTarget& IcpTarget::operator=(IcpTarget&&) noexcept = default;
 std::size_t IcpTarget::size() const {
   return tree_->cloud.points.size();
 }
+std::size_t IcpTarget::memory_bytes() const {
+  return sizeof(Point2) * tree_->cloud.points.capacity() + tree_->index.usedMemory(tree_->index) +
+         sizeof(std::optional<Point2>) * tree_->normals.capacity();
+}
 
 IcpAnswer IcpTarget::match(std::span<const Point2> moving, const Pose2& T_fixed_start,
                            const IcpOptions& options) const {

@@ -32,6 +32,7 @@ class IcpTarget {
   IcpTarget& operator=(IcpTarget&&) noexcept;
 
   [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
   [[nodiscard]] IcpAnswer match(std::span<const Point2> moving, const Pose2& T_fixed_start,
                                 const IcpOptions& options) const;
 

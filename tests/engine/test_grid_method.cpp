@@ -11,6 +11,7 @@
 #include "random_world.hpp"
 #include "rooms.hpp"
 #include "same_answer.hpp"
+#include "sonar_ring.hpp"
 
 namespace landfall {
 namespace {
@@ -110,31 +111,15 @@ TEST(Grid, ScoresEqualTheDirectSum) {
   EXPECT_GT(compared, 500);
 }
 
-std::shared_ptr<const Sensor> sonar_ring() {
-  Sensor sensor{.name = "ring", .beams = {}, .range_noise_m = 0.0};
-  for (int k = 0; k < 14; ++k) {
-    const double axis_rad = k * 2.0 * std::numbers::pi / 14.0;
-    sensor.beams.push_back({.T_robot_beam = {0.3 * std::cos(axis_rad), 0.3 * std::sin(axis_rad), axis_rad},
-                            .half_angle_rad = 6.0 * degree,
-                            .range_max_m = 8.0});
-  }
-  return std::make_shared<const Sensor>(sensor);
-}
-
 SearchOptions as_published(const char* method) {
-  return {.method = method,
-          .translation_step_m = 0.1,
-          .rotation_step_rad = 5.0 * degree,
-          .robot_radius_m = 0.3,
-          .distinct_translation_m = 0.15,
-          .distinct_rotation_rad = 7.5 * degree};
+  return testing::grid_options(method, 0.15, 7.5);
 }
 
 TEST(Grid, ThePublishedWindowHas289Times19Poses) {
   const PreparedMap map(testing::empty_map(100, 100, 0.1));
   const double theta_rad = 0.123;  // no multiple of the step
   const Window window{{5.05, 5.05, theta_rad}, 0.8, 0.8, 45.0 * degree};
-  const Scan scan{.sensor = sonar_ring(), .ranges_m = std::vector<float>(14, 2.0F)};
+  const Scan scan{.sensor = testing::sonar_ring(), .ranges_m = std::vector<float>(14, 2.0F)};
   SearchOptions options = as_published("grid");
   const SearchResult result = search(map, {window}, scan, options);
   EXPECT_EQ(result.counts.poses_covered, 289 * 19);
@@ -147,7 +132,7 @@ TEST(Grid, ThePublishedWindowHas289Times19Poses) {
 
 TEST(Grid, FindsSonarsOnTheLatticeInAFurnishedRoom) {
   const PreparedMap map(testing::furnished_room());
-  const auto ring = sonar_ring();
+  const auto ring = testing::sonar_ring();
   Dice dice(11);
   int right = 0;
   constexpr int asked = 40;
@@ -189,7 +174,7 @@ TEST(Grid, FindsALaserInAWindow) {
 
 TEST(Grid, AnswersDoNotDependOnThreads) {
   const PreparedMap map(testing::furnished_room());
-  const Scan scan = testing::look(map, sonar_ring(), {4.0, 2.0, 1.0});
+  const Scan scan = testing::look(map, testing::sonar_ring(), {4.0, 2.0, 1.0});
   for (const char* method : grid_methods) {
     SearchOptions options = as_published(method);
     options.threads = 1;
@@ -201,7 +186,7 @@ TEST(Grid, AnswersDoNotDependOnThreads) {
 
 TEST(Grid, ABudgetIsKept) {
   const PreparedMap map(testing::furnished_room());
-  const Scan scan = testing::look(map, sonar_ring(), {4.0, 2.0, 1.0});
+  const Scan scan = testing::look(map, testing::sonar_ring(), {4.0, 2.0, 1.0});
   SearchOptions options = as_published("grid");
   options.time_budget_s = 1e-9;
   const SearchResult result = search(map, {Anywhere{}}, scan, options);

@@ -9,10 +9,11 @@
 #include "drawn_map.hpp"
 #include "engine/methods/grid/block_bounds.hpp"
 #include "engine/methods/grid/reduced.hpp"
+#include "engine/methods/grid/time_matching.hpp"
 #include "landfall/error.hpp"
-#include "landfall/grid_matching.hpp"
 #include "random_world.hpp"
 #include "rooms.hpp"
+#include "sonar_ring.hpp"
 
 namespace landfall {
 namespace {
@@ -51,24 +52,8 @@ TEST(GridReduced, ContoursAreCorrectedAtTheReducedResolution) {
     }
 }
 
-std::shared_ptr<const Sensor> sonar_ring() {
-  Sensor sensor{.name = "ring", .beams = {}, .range_noise_m = 0.0};
-  for (int k = 0; k < 14; ++k) {
-    const double axis_rad = k * 2.0 * std::numbers::pi / 14.0;
-    sensor.beams.push_back({.T_robot_beam = {0.3 * std::cos(axis_rad), 0.3 * std::sin(axis_rad), axis_rad},
-                            .half_angle_rad = 6.0 * degree,
-                            .range_max_m = 8.0});
-  }
-  return std::make_shared<const Sensor>(sensor);
-}
-
 SearchOptions as_published(const char* method) {
-  return {.method = method,
-          .translation_step_m = 0.1,
-          .rotation_step_rad = 5.0 * degree,
-          .robot_radius_m = 0.3,
-          .distinct_translation_m = 0.1,
-          .distinct_rotation_rad = 7.0 * degree};
+  return testing::grid_options(method, 0.1, 7.0);
 }
 
 struct Compared {
@@ -82,7 +67,7 @@ struct Compared {
 template <typename PriorAround>
 Compared compare(int asked, const PriorAround& prior_around) {
   const PreparedMap map(testing::furnished_room());
-  const auto ring = sonar_ring();
+  const auto ring = testing::sonar_ring();
   Dice dice(5);
   Compared result;
   while (result.asked < asked) {
@@ -127,7 +112,7 @@ TEST(GridReduced, ABudgetThatEndsOnTheWayAnswersNothing) {
   SearchOptions options = as_published("grid_reduced");
   options.time_budget_s = 1e-9;
   const SearchResult result =
-      search(map, {Anywhere{}}, testing::look(map, sonar_ring(), {4.0, 2.0, 1.0}), options);
+      search(map, {Anywhere{}}, testing::look(map, testing::sonar_ring(), {4.0, 2.0, 1.0}), options);
   EXPECT_TRUE(result.hypotheses.empty());
   EXPECT_EQ(result.verdict, Verdict::lost);
 }
@@ -190,7 +175,7 @@ TEST(GridBounds, LeaveOutNoRival) {
 
 TEST(GridBounds, AWholeMapIsSearchedWithinBoundsAndProven) {
   const PreparedMap map(testing::furnished_room());
-  const Scan scan = testing::look(map, sonar_ring(), {4.0, 2.0, 1.0});
+  const Scan scan = testing::look(map, testing::sonar_ring(), {4.0, 2.0, 1.0});
   SearchOptions options = as_published("grid");
   options.rotation_step_rad = 0.3 * degree;  // more than four million poses
   const SearchResult bounded = search(map, {Anywhere{}}, scan, options);
@@ -202,11 +187,12 @@ TEST(GridBounds, AWholeMapIsSearchedWithinBoundsAndProven) {
 
 TEST(GridMatchingTimes, AreThoseOfTheSteps) {
   const PreparedMap map(testing::furnished_room());
-  const Scan scan = testing::look(map, sonar_ring(), {4.0, 2.0, 1.0});
-  const GridMatchingTimes times = time_grid_matching(map, {Anywhere{}}, scan, as_published("grid"), 3);
+  const Scan scan = testing::look(map, testing::sonar_ring(), {4.0, 2.0, 1.0});
+  const internal::GridMatchingTimes times =
+      internal::time_grid_matching(map, {Anywhere{}}, scan, as_published("grid"), 3);
   EXPECT_GT(times.local_grids_ms, 0.0);
   EXPECT_GT(times.matching_ms, 0.0);
-  EXPECT_THROW((void)time_grid_matching(map, {Anywhere{}}, scan, as_published("grid"), 0), Error);
+  EXPECT_THROW((void)internal::time_grid_matching(map, {Anywhere{}}, scan, as_published("grid"), 0), Error);
 }
 
 }  // namespace

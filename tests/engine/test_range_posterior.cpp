@@ -10,6 +10,7 @@
 #include "engine/neighbourhoods.hpp"
 #include "random_world.hpp"
 #include "rooms.hpp"
+#include "sonar_ring.hpp"
 
 namespace landfall {
 namespace {
@@ -18,24 +19,8 @@ using testing::Dice;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-std::shared_ptr<const Sensor> sonar_ring() {
-  Sensor sensor{.name = "ring", .beams = {}, .range_noise_m = 0.02};
-  for (int k = 0; k < 14; ++k) {
-    const double axis_rad = k * 2.0 * std::numbers::pi / 14.0;
-    sensor.beams.push_back({.T_robot_beam = {0.3 * std::cos(axis_rad), 0.3 * std::sin(axis_rad), axis_rad},
-                            .half_angle_rad = 6.0 * degree,
-                            .range_max_m = 8.0});
-  }
-  return std::make_shared<const Sensor>(sensor);
-}
-
 SearchOptions options_of(const char* method) {
-  return {.method = method,
-          .translation_step_m = 0.1,
-          .rotation_step_rad = 5.0 * degree,
-          .robot_radius_m = 0.3,
-          .distinct_translation_m = 0.12,
-          .distinct_rotation_rad = 7.5 * degree};
+  return testing::grid_options(method, 0.12, 7.5);
 }
 
 struct Asked {
@@ -46,7 +31,7 @@ struct Asked {
 
 // Poses anywhere, the window's centre off by some cells.
 Asked random_question(Dice& dice, const PreparedMap& map) {
-  const auto ring = sonar_ring();
+  const auto ring = testing::sonar_ring(0.02);
   for (;;) {
     const Pose2 T_map_robot{dice.between(0.6, 7.4), dice.between(0.6, 5.4), dice.between(-3.1, 3.1)};
     if (!map.state().free_mask(0.3, 1)->contains(static_cast<int>(T_map_robot.x_m / 0.1),

@@ -9,7 +9,7 @@
 #include "engine/methods/sdn/choose_parameters.hpp"
 #include "engine/methods/sdn/cluster.hpp"
 #include "engine/methods/sdn/equilibrium.hpp"
-#include "engine/methods/sdn/pose_sampler.hpp"
+#include "engine/pose_sampler.hpp"
 #include "engine/prepared_state.hpp"
 #include "rooms.hpp"
 

@@ -70,8 +70,4 @@ struct DiffusionRun {
 DiffusionRun run_diffusion(const PreparedMap& map, const PosePrior& prior, const Scan& scan,
                            const DiffusionOptions& options = {});
 
-// Processor time in seconds for casting ray i, beam i % beams of a sensor without half-angles, from
-// T_map_robot[i]: the raycaster alone, in one thread, on rays that have nothing in common.
-double time_bare_rays(const PreparedMap& map, const Sensor& sensor, std::span<const Pose2> T_map_robot);
-
 }  // namespace landfall

@@ -1,5 +1,6 @@
+#include "engine/methods/grid/time_matching.hpp"
+
 #include <algorithm>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -7,18 +8,11 @@
 #include "engine/end_points.hpp"
 #include "engine/methods/grid/level.hpp"
 #include "engine/options.hpp"
+#include "engine/thread_time.hpp"
 #include "landfall/error.hpp"
-#include "landfall/grid_matching.hpp"
 
-namespace landfall {
-namespace internal {
+namespace landfall::internal {
 namespace {
-
-double thread_time_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 template <typename Work>
 double median_ms(int repetitions, const Work& work) {
@@ -34,9 +28,6 @@ double median_ms(int repetitions, const Work& work) {
 }
 
 }  // namespace
-}  // namespace internal
-
-using namespace internal;
 
 GridMatchingTimes time_grid_matching(const PreparedMap& map, const PosePrior& prior, const Scan& scan,
                                      const SearchOptions& options, int repetitions) {
@@ -80,4 +71,4 @@ GridMatchingTimes time_grid_matching(const PreparedMap& map, const PosePrior& pr
   return times;
 }
 
-}  // namespace landfall
+}  // namespace landfall::internal

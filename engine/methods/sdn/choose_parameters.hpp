@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/methods/sdn/focus_levels.hpp"
-#include "engine/methods/sdn/pose_sampler.hpp"
+#include "engine/pose_sampler.hpp"
 #include "engine/prepared_state.hpp"
 
 namespace landfall::internal {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/methods/sdn/processor_time.hpp"
 #include "engine/parallel.hpp"
+#include "engine/thread_time.hpp"
 
 namespace landfall::internal {
 namespace {

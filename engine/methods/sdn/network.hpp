@@ -8,8 +8,8 @@
 #include <span>
 
 #include "engine/methods/sdn/cells.hpp"
-#include "engine/methods/sdn/pose_sampler.hpp"
 #include "engine/methods/sdn/test_rays.hpp"
+#include "engine/pose_sampler.hpp"
 
 namespace landfall::internal {
 

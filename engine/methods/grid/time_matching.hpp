@@ -6,7 +6,7 @@
 #include "landfall/scan.hpp"
 #include "landfall/search.hpp"
 
-namespace landfall {
+namespace landfall::internal {
 
 // Processor time of one thread, milliseconds; medians.
 struct GridMatchingTimes {
@@ -19,4 +19,4 @@ struct GridMatchingTimes {
 GridMatchingTimes time_grid_matching(const PreparedMap& map, const PosePrior& prior, const Scan& scan,
                                      const SearchOptions& options, int repetitions = 1);
 
-}  // namespace landfall
+}  // namespace landfall::internal

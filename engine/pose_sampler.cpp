@@ -1,4 +1,4 @@
-#include "engine/methods/sdn/pose_sampler.hpp"
+#include "engine/pose_sampler.hpp"
 
 #include <algorithm>
 #include <bit>
