@@ -18,6 +18,7 @@
 #include "kernels/end_points.hpp"
 #include "kernels/score_block.hpp"
 #include "kernels/score_row.hpp"
+#include "kernels/window_tile.hpp"
 #include "landfall/prepared_map.hpp"
 #include "landfall/simulate.hpp"
 #include "tests/kernels/random_field.hpp"
@@ -49,7 +50,7 @@ struct Planes {
 
   kernels::BoundPlanes planes;
   std::vector<std::uint32_t> column_of_4;
-  Integers plane, col, row, list_begin, list_end, tile_col, tile_row;
+  Integers plane, col, row, first_byte, list_begin, list_end, tile_col, tile_row;
 
   Planes(int count, int cols, int rows, int runs)
       : planes{.column_of_4 = nullptr,
@@ -69,10 +70,12 @@ struct Planes {
         plane.push_back(random.between(0, count - 1) * cols * rows);
         col.push_back(random.between(0, planes.last_col));
         row.push_back(random.between(0, planes.last_row));
+        first_byte.push_back(4 * (plane.back() + row.back() * cols + col.back()));
       }
       list_end.push_back(static_cast<std::int32_t>(plane.size()));
     }
-    for (Integers* padded : {&plane, &col, &row}) padded->resize(padded->size() + kernels::point_padding);
+    for (Integers* padded : {&plane, &col, &row, &first_byte})
+      padded->resize(padded->size() + kernels::point_padding);
     tile_col = random.integers(static_cast<std::size_t>(runs), -cols / 2, cols / 2);
     tile_row = random.integers(static_cast<std::size_t>(runs), -rows / 2, rows / 2);
   }
@@ -80,9 +83,14 @@ struct Planes {
     return {.plane = plane.data(),
             .col = col.data(),
             .row = row.data(),
+            .first_byte = first_byte.data(),
             .list_begin = list_begin.data(),
             .list_end = list_end.data(),
-            .lists = static_cast<std::int32_t>(list_end.size())};
+            .lists = static_cast<std::int32_t>(list_end.size()),
+            .least_col = 0,
+            .most_col = planes.last_col,
+            .least_row = 0,
+            .most_row = planes.last_row};
   }
 };
 
@@ -90,23 +98,23 @@ inline Work bound_tile_work(const std::string& cache, int count, int cols, int r
   constexpr std::size_t runs = 64;
   constexpr std::size_t run_blocks = kernels::most_tiles * kernels::tile_blocks;
   const auto data = std::make_shared<const Planes>(count, cols, rows, static_cast<int>(runs));
-  return {
-      .name = "bound_tile/" + cache,
-      .unit = "bytes/s",
-      .units_per_run =
-          1.0 * runs * static_cast<double>(data->plane.size() - kernels::point_padding) * run_blocks,
-      .run =
-          [data, scratch = Integers(data->plane.size()),
-           allowed = std::vector<std::uint16_t>(run_blocks, 0xFFFF)](bool twin, Answers& answers) mutable {
-            answers.sums.resize(runs * (run_blocks + kernels::most_tiles));
-            const auto bound = twin ? kernels::scalar::bound_tiles : kernels::bound_tiles;
-            std::uint16_t* sums = answers.sums.data();
-            for (std::size_t r = 0; r < runs; ++r, sums += run_blocks + kernels::most_tiles)
-              bound(data->planes, data->points(), data->tile_col[r], data->tile_row[r], kernels::most_tiles,
-                    0, allowed.data(), scratch.data(), sums, sums + run_blocks);
-          },
-      .table = {reinterpret_cast<const std::uint8_t*>(data->column_of_4.data()),
-                data->column_of_4.size() * sizeof(std::uint32_t)}};
+  return {.name = "bound_tile/" + cache,
+          .unit = "bytes/s",
+          .units_per_run =
+              1.0 * runs * static_cast<double>(data->plane.size() - kernels::point_padding) * run_blocks,
+          .run =
+              [data, scratch = Integers(data->plane.size()),
+               allowed = std::vector<std::uint64_t>(kernels::most_tiles, ~std::uint64_t{0})](
+                  bool twin, Answers& answers) mutable {
+                answers.sums.resize(runs * (run_blocks + kernels::most_tiles));
+                const auto bound = twin ? kernels::scalar::bound_tiles : kernels::bound_tiles;
+                std::uint16_t* sums = answers.sums.data();
+                for (std::size_t r = 0; r < runs; ++r, sums += run_blocks + kernels::most_tiles)
+                  bound(data->planes, data->points(), data->tile_col[r], data->tile_row[r],
+                        kernels::most_tiles, 0, allowed.data(), scratch.data(), sums, sums + run_blocks);
+              },
+          .table = {reinterpret_cast<const std::uint8_t*>(data->column_of_4.data()),
+                    data->column_of_4.size() * sizeof(std::uint32_t)}};
 }
 
 // A scan of 180 beams over half a turn, on the lattice of the office, seen at headings all around.
@@ -158,16 +166,18 @@ inline Work window_indices_work(const SharedScan& scan) {
 }
 
 // No threshold: every point is looked at.
-inline Work bound_block_work(const SharedScan& scan) {
-  return {.name = "bound_block",
+inline Work bound_windows_work(const SharedScan& scan) {
+  return {.name = "bound_windows",
           .unit = "blocks/s",
-          .units_per_run = OfficeScan::views,
-          .run = [scan](bool twin, Answers& answers) {
-            answers.numbers.resize(OfficeScan::views);
-            const auto bound = twin ? kernels::scalar::bound_block : kernels::bound_block;
+          .units_per_run = 1.0 * OfficeScan::views * kernels::tile_blocks,
+          .run = [scan, counted = std::vector<std::uint16_t>(kernels::tile_blocks, 0xFFFF)](
+                     bool twin, Answers& answers) {
+            answers.numbers.resize(OfficeScan::views * kernels::tile_blocks);
+            const auto bound = twin ? kernels::scalar::bound_windows : kernels::bound_windows;
             for (std::size_t v = 0; v < OfficeScan::views; ++v)
-              answers.numbers[v] =
-                  bound(scan->tables.planes(), scan->index[v].data(), scan->index[v].size(), 0);
+              bound(scan->tables.maxima(), scan->block_col[v], scan->block_row[v], scan->cells[v].col.data(),
+                    scan->cells[v].row.data(), scan->points.size(), 0, counted.data(),
+                    answers.numbers.data() + v * kernels::tile_blocks);
           }};
 }
 
@@ -225,7 +235,7 @@ inline std::vector<Work> all_work() {
   all.push_back(bound_tile_work("1.6MB", 20, 220, 100));
   all.push_back(bound_tile_work("32MB", 20, 740, 535));
   all.push_back(window_indices_work(scan));
-  all.push_back(bound_block_work(scan));
+  all.push_back(bound_windows_work(scan));
   all.push_back(score_block_work(scan));
   all.push_back(score_row_work(scan));
   all.push_back(end_point_cells_work(scan));

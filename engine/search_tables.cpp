@@ -33,6 +33,19 @@ std::vector<std::uint8_t> reduce(std::span<const std::uint8_t> in, int cols, int
   return out;
 }
 
+// One element of `padded` in eight is of one phase, and so on; both begin block_cells before the map.
+void scatter_by_phase(std::span<const std::uint8_t> padded, std::size_t padded_row,
+                      const kernels::WindowMaxima& maxima, std::vector<std::uint8_t>& window_max) {
+  using kernels::WindowMaxima;
+  const int row = static_cast<int>(padded_row) - block_cells + WindowMaxima::pad_rows;
+  for (int phase_col = 0; phase_col < block_cells; ++phase_col) {
+    const std::int32_t first = maxima.index(WindowMaxima::pad_cols - block_cells + phase_col, row);
+    std::uint8_t* out = window_max.data() + first;
+    for (std::size_t col = static_cast<std::size_t>(phase_col); col < padded.size(); col += block_cells)
+      *out++ = padded[col];
+  }
+}
+
 int divide_up(int a, int b) {
   return (a + b - 1) / b;
 }
@@ -46,6 +59,15 @@ BoundTable::BoundTable(const std::vector<std::uint8_t>& halves, int half_cols, i
       plane_size_(cols_ * rows_) {
   column_of_4_.resize(static_cast<std::size_t>(plane_size_) * window_sizes * phases * phases);
   for (int index = 0; index < window_sizes; ++index) fill_planes(index, halves, half_cols, half_rows);
+  static_assert(sizes.back() < kernels::WindowShelf::sizes - 1);
+  for (int size = 0; size < kernels::WindowShelf::sizes; ++size) {
+    const int index = window_index(size);
+    shelf_.plane_of_size[size] = index < 0 ? -1 : plane(index, 0, 0);
+  }
+  shelf_.plane_size = plane_size_;
+  shelf_.stride = cols_;
+  shelf_.pad_cols = pad_cols;
+  shelf_.pad_rows = pad_rows;
 }
 
 // Windows of h halves that begin at half p - margin, p in [0, padded): enough to reach off the map.
@@ -103,9 +125,19 @@ kernels::BoundPlanes BoundTable::planes() const {
           .last_row = rows_ - kernels::tile_rows};
 }
 
-kernels::WindowPlanes WindowTables::planes() const {
+kernels::WindowMaxima WindowTables::maxima() const {
+  using kernels::WindowMaxima;
+  const std::int32_t stride = (width_cells + WindowMaxima::pad_cols) / block_cells + kernels::tile_cols;
+  const std::int32_t rows = (height_cells + WindowMaxima::pad_rows) / block_cells + kernels::tile_rows;
   return {.window_max = window_max.data(),
-          .column_of_2 = column_of_2.data(),
+          .stride = stride,
+          .phase_size = rows * stride,
+          .width = width_cells,
+          .height = height_cells};
+}
+
+kernels::WindowPlanes WindowTables::planes() const {
+  return {.column_of_2 = column_of_2.data(),
           .stride = width_cells + 2 * block_cells,
           .width = width_cells,
           .height = height_cells};
@@ -117,7 +149,8 @@ WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_c
   const auto width = static_cast<std::size_t>(width_cells);
   const std::size_t stride = width + 2 * block_cells;
   const std::size_t rows = static_cast<std::size_t>(height_cells) + 2 * block_cells;
-  tables.window_max.resize(stride * rows);
+  const kernels::WindowMaxima maxima = tables.maxima();
+  tables.window_max.resize(static_cast<std::size_t>(maxima.phase_size) * block_cells * block_cells);
   tables.column_of_2.resize(stride * rows);
   const std::vector<std::uint8_t> nothing(width);
   const auto field_row = [&](std::size_t padded_row) {
@@ -134,7 +167,7 @@ WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_c
       kernels::maximum(tallest.data() + block_cells, field_row(row), width, tallest.data() + block_cells);
     std::vector<std::uint8_t> slid(stride + block_cells);
     kernels::sliding_max_8(tallest.data(), stride + block_cells, scratch.data(), slid.data());
-    std::copy_n(slid.data(), stride, tables.window_max.data() + r * stride);
+    scatter_by_phase(std::span(slid).first(stride), r, maxima, tables.window_max);
   });
   return tables;
 }

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "kernels/bound_tile.hpp"
+#include "kernels/merge_windows.hpp"
 #include "kernels/score_block.hpp"
+#include "kernels/window_tile.hpp"
 
 namespace landfall::internal {
 
@@ -32,6 +34,7 @@ class BoundTable {
     return halves > sizes.back() ? -1 : index_of_halves[static_cast<std::size_t>(halves)];
   }
   [[nodiscard]] kernels::BoundPlanes planes() const;
+  [[nodiscard]] const kernels::WindowShelf& shelf() const { return shelf_; }
   // First element of a plane.
   [[nodiscard]] std::int32_t plane(int window_index, int phase_row, int phase_col) const {
     return ((window_index * phases + phase_row) * phases + phase_col) * plane_size_;
@@ -55,6 +58,7 @@ class BoundTable {
   int cols_;  // of a plane, padding included
   int rows_;
   std::int32_t plane_size_;
+  kernels::WindowShelf shelf_{};
   std::vector<std::uint32_t> column_of_4_;
 };
 
@@ -62,9 +66,10 @@ class BoundTable {
 struct WindowTables {
   int width_cells = 0;
   int height_cells = 0;
-  std::vector<std::uint8_t> window_max;
-  std::vector<std::uint16_t> column_of_2;
+  std::vector<std::uint8_t> window_max;    // as WindowMaxima says
+  std::vector<std::uint16_t> column_of_2;  // as WindowPlanes says
 
+  [[nodiscard]] kernels::WindowMaxima maxima() const;
   [[nodiscard]] kernels::WindowPlanes planes() const;
   [[nodiscard]] std::size_t memory_bytes() const {
     return window_max.capacity() + 2 * column_of_2.capacity();

@@ -201,14 +201,22 @@ class SupportBuilder {
     return one;
   }
 
-  // Lattice headings within a cone of the map frame; a cone too thin to hold one holds the nearest.
+  // Lattice headings within a cone of the map frame, in order; a cone too thin to hold one holds the nearest.
   [[nodiscard]] std::vector<int> headings_in(double theta_rad, double half_theta_rad) const {
+    const int nearest = lattice_.nearest({0.0, 0.0, theta_rad}).heading;
+    const auto wrapped = [&](int k) {
+      return (k % lattice_.headings + lattice_.headings) % lattice_.headings;
+    };
+    const auto is_inside = [&](int k) {
+      return angle_distance(heading_map_rad(wrapped(k)), theta_rad) <= half_theta_rad + slack;
+    };
+    int first = nearest;
+    int last = nearest + 1;
+    while (last - first < lattice_.headings && is_inside(last)) ++last;
+    while (last - first < lattice_.headings && is_inside(first - 1)) --first;
     std::vector<int> headings;
-    for (int k = 0; k < lattice_.headings; ++k) {
-      const double heading_rad = heading_map_rad(k);
-      if (angle_distance(heading_rad, theta_rad) <= half_theta_rad + slack) headings.push_back(k);
-    }
-    if (headings.empty()) headings.push_back(lattice_.nearest({0.0, 0.0, theta_rad}).heading);
+    for (int k = first; k < last; ++k) headings.push_back(wrapped(k));
+    std::sort(headings.begin(), headings.end());
     return headings;
   }
 

@@ -60,10 +60,10 @@ BlockSet doubled(const BlockSet& blocks) {
   return large;
 }
 
-TileLayout::TileLayout(const BlockSet& blocks) {
-  const auto even = [](int value) { return value & ~1; };
+TileLayout::TileLayout(const BlockSet& blocks, int alignment) {
+  const auto aligned = [alignment](int value) { return value / alignment * alignment; };
   const int last_col = blocks.first_col + blocks.cols;
-  for (int row = even(blocks.first_row); row < blocks.first_row + blocks.rows; row += tile_rows) {
+  for (int row = aligned(blocks.first_row); row < blocks.first_row + blocks.rows; row += tile_rows) {
     const auto is_used = [&](int col) {
       for (int r = row; r < row + tile_rows; ++r)
         if (blocks.contains(col, r)) return true;
@@ -71,7 +71,7 @@ TileLayout::TileLayout(const BlockSet& blocks) {
     };
     for (int col = blocks.first_col; col < last_col; ++col) {
       if (!is_used(col)) continue;
-      const Tile tile{.col = even(col), .row = row};
+      const Tile tile{.col = aligned(col), .row = row};
       const bool goes_on = !tiles.empty() && tiles.back().row == row &&
                            tiles.back().col + tile_cols == tile.col &&
                            runs.back().tiles < kernels::most_tiles;
@@ -80,9 +80,11 @@ TileLayout::TileLayout(const BlockSet& blocks) {
       else
         runs.push_back({.first = static_cast<std::uint32_t>(tiles.size()), .tiles = 1});
       tiles.push_back(tile);
+      std::uint64_t used = 0;
       for (int lane = 0; lane < tile_blocks; ++lane)
-        allowed.push_back(
-            blocks.contains(tile.col + kernels::lane_col(lane), row + kernels::lane_row(lane)) ? 0xFFFF : 0);
+        if (blocks.contains(tile.col + kernels::lane_col(lane), row + kernels::lane_row(lane)))
+          used |= std::uint64_t{1} << lane;
+      allowed.push_back(used);
       col = tile.col + tile_cols - 1;
     }
   }
@@ -90,7 +92,14 @@ TileLayout::TileLayout(const BlockSet& blocks) {
 
 namespace {
 
-std::vector<std::int32_t> tile_of_lanes(const TileLayout& coarse, const TileLayout& fine) {
+std::uint64_t lanes_of_part(int col, int row) {
+  std::uint64_t lanes = 0;
+  for (int r = row; r < row + 2; ++r)
+    for (int c = col; c < col + 2; ++c) lanes |= std::uint64_t{1} << kernels::tile_lane(c, r);
+  return lanes;
+}
+
+std::vector<SearchTiles::Parts> find_parts(const TileLayout& coarse, const TileLayout& fine) {
   int last_col = 0;
   int last_row = 0;
   for (const TileLayout::Tile& tile : fine.tiles) {
@@ -103,22 +112,28 @@ std::vector<std::int32_t> tile_of_lanes(const TileLayout& coarse, const TileLayo
     for (int row = fine.tiles[t].row / 2; row < (fine.tiles[t].row + tile_rows) / 2; ++row)
       std::fill_n(tile_of_block.begin() + row * static_cast<std::ptrdiff_t>(cols) + fine.tiles[t].col / 2,
                   tile_cols / 2, static_cast<std::int32_t>(t));
-  std::vector<std::int32_t> tile_of_lane;
-  tile_of_lane.reserve(coarse.size() * tile_blocks);
+  std::vector<SearchTiles::Parts> parts;
+  parts.reserve(coarse.size() * tile_blocks);
   for (const TileLayout::Tile& tile : coarse.tiles)
     for (int lane = 0; lane < tile_blocks; ++lane) {
       const int col = tile.col + kernels::lane_col(lane);
       const int row = tile.row + kernels::lane_row(lane);
       const bool inside = col < last_col && row < last_row;
-      tile_of_lane.push_back(
-          inside ? tile_of_block[static_cast<std::size_t>(row) * cols + static_cast<std::size_t>(col)] : -1);
+      const std::int32_t t =
+          inside ? tile_of_block[static_cast<std::size_t>(row) * cols + static_cast<std::size_t>(col)] : -1;
+      if (t < 0) {
+        parts.push_back({});
+        continue;
+      }
+      const TileLayout::Tile& of = fine.tiles[static_cast<std::size_t>(t)];
+      parts.push_back({.tile = t, .lanes = lanes_of_part(2 * col - of.col, 2 * row - of.row)});
     }
-  return tile_of_lane;
+  return parts;
 }
 
 }  // namespace
 
 SearchTiles::SearchTiles(const BlockSet& blocks)
-    : small(blocks), large(doubled(blocks)), tile_of_lane(tile_of_lanes(large, small)) {}
+    : small(blocks, 2), large(doubled(blocks), 2), parts(find_parts(large, small)) {}
 
 }  // namespace landfall::internal

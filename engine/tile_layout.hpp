@@ -31,15 +31,15 @@ BlockSet blocks_of(std::span<const SharedMask> masks);
 // Blocks twice as large.
 BlockSet doubled(const BlockSet& blocks);
 
-// Rows of tiles, each begun at the next used block, or the one before: at even columns and rows, so that the
-// four parts of a block twice as large share a tile.
+// Rows of tiles, each begun at the next used block, or the one before: at multiples of `alignment`; of 2
+// where the four parts of a block twice as large shall share a tile.
 struct TileLayout {
   struct Tile {
     int col;  // block
     int row;
   };
   std::vector<Tile> tiles;
-  std::vector<std::uint16_t> allowed;  // [tile][lane]: all ones where the block is used
+  std::vector<std::uint64_t> allowed;  // [tile]: bit kernels::tile_lane of every used block
 
   // Tiles [first, first + tiles) stand side by side; at most kernels::most_tiles.
   struct Run {
@@ -48,10 +48,10 @@ struct TileLayout {
   };
   std::vector<Run> runs;  // all tiles, in order
 
-  explicit TileLayout(const BlockSet& blocks);
+  explicit TileLayout(const BlockSet& blocks, int alignment = 1);
   [[nodiscard]] std::size_t size() const { return tiles.size(); }
   [[nodiscard]] std::size_t memory_bytes() const {
-    return sizeof(Tile) * tiles.capacity() + sizeof(std::uint16_t) * allowed.capacity() +
+    return sizeof(Tile) * tiles.capacity() + sizeof(std::uint64_t) * allowed.capacity() +
            sizeof(Run) * runs.capacity();
   }
 };
@@ -60,12 +60,16 @@ struct TileLayout {
 struct SearchTiles {
   TileLayout small;  // of the blocks given
   TileLayout large;  // of blocks twice as large
-  std::vector<std::int32_t>
-      tile_of_lane;  // per lane of `large` the tile of `small` that holds its four parts; -1: none
+  // Per tile and lane of `large` where its four parts are in `small`; no lanes: nowhere.
+  struct Parts {
+    std::int32_t tile = 0;
+    std::uint64_t lanes = 0;
+  };
+  std::vector<Parts> parts;
 
   explicit SearchTiles(const BlockSet& blocks);
   [[nodiscard]] std::size_t memory_bytes() const {
-    return small.memory_bytes() + large.memory_bytes() + sizeof(std::int32_t) * tile_of_lane.capacity();
+    return small.memory_bytes() + large.memory_bytes() + sizeof(Parts) * parts.capacity();
   }
 };
 

@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "kernels/bound_tile.hpp"
 #include "kernels/isa.hpp"
@@ -17,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 // One lane has no halves; the twin does as well.
 void BoundTiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
-                int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                int threshold, const std::uint64_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
                 std::uint16_t* largest) {
   scalar::bound_tiles(planes, points, tile_col, tile_row, tiles, threshold, allowed, scratch, sums, largest);
 }
@@ -45,6 +46,14 @@ void TileOffsets(const BoundPlanes& planes, const BoundPoints& points, int tile_
   }
 }
 
+// Words of the blocks whose bits are set, the bit of the first in the lowest place.
+HWY_INLINE hn::Vec<WordTag> KeepLanes(hn::Vec<WordTag> words, std::uint64_t bits) {
+  const WordTag d;
+  std::uint8_t bytes[sizeof(bits)];
+  std::memcpy(bytes, &bits, sizeof(bits));
+  return hn::IfThenElseZero(hn::LoadMaskBits(d, bytes), words);
+}
+
 // Sums of one vector of neighbouring blocks: word w of `even` belongs to byte 2 w, of `odd` to the next.
 struct Sums {
   hn::Vec<WordTag> even;
@@ -60,7 +69,11 @@ struct Sums {
     even = hn::SaturatedAdd(even, even);
     odd = hn::SaturatedAdd(odd, odd);
   }
-  HWY_INLINE hn::Vec<WordTag> largest() const { return hn::Max(even, odd); }
+  // Of the blocks allowed in the tile, as the vector that begins at byte `at` of it.
+  HWY_INLINE hn::Vec<WordTag> largest(std::uint64_t allowed, std::size_t at) const {
+    return hn::Max(KeepLanes(even, allowed >> (at / 2)),
+                   KeepLanes(odd, allowed >> (tile_blocks / 2 + at / 2)));
+  }
   // As the vector that begins at byte `at` of a tile.
   HWY_INLINE void store(std::size_t at, std::uint16_t* HWY_RESTRICT sums) const {
     const WordTag d;
@@ -69,14 +82,30 @@ struct Sums {
   }
 };
 
+// A run of tiles for all points.
+struct Run {
+  const BoundPlanes& planes;
+  const BoundPoints& points;
+  int col;
+  int row;
+  int threshold;
+  const std::uint64_t* allowed;
+  std::int32_t* scratch;
+
+  // No point's run of tiles begins beyond the planes.
+  [[nodiscard]] bool is_inside() const {
+    return col + points.least_col >= 0 && col + points.most_col <= planes.last_col &&
+           row + points.least_row >= 0 && row + points.most_row <= planes.last_row;
+  }
+};
+
 // The sums of `Vectors` (1, 2 or 4) neighbouring vectors stay in registers; up to eight points' bytes are
 // added as bytes first.
 template <int Vectors>
-bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile_row, int tile_col,
-                  std::size_t first_byte, int threshold, std::int32_t* HWY_RESTRICT offset,
-                  std::uint16_t* HWY_RESTRICT sums) {
+bool BoundVectors(const Run& run, bool inside, std::size_t first_byte, std::uint16_t* HWY_RESTRICT sums) {
   constexpr std::int32_t points_per_look = 32;
   constexpr std::int32_t points_per_byte = 255 / bound_levels;
+  const BoundPoints& points = run.points;
   const ByteTag d;
   const std::size_t lanes = hn::Lanes(d);
   const auto zero = hn::Zero(WordTag());
@@ -84,8 +113,15 @@ bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile
   std::int64_t weight_left = 0;
   for (std::int32_t list = 0; list < points.lists; ++list)
     weight_left += std::int64_t{points.list_end[list] - points.list_begin[list]} << (points.lists - 1 - list);
+  const std::ptrdiff_t run_byte = inside ? 4 * (std::ptrdiff_t{run.row} * run.planes.stride + run.col) : 0;
   const std::uint8_t* HWY_RESTRICT data =
-      reinterpret_cast<const std::uint8_t*>(planes.column_of_4) + first_byte;
+      reinterpret_cast<const std::uint8_t*>(run.planes.column_of_4) + run_byte + first_byte;
+  const auto largest_of = [&](const Sums& sum, std::size_t vector) HWY_ATTR {
+    const std::size_t at = first_byte + vector * lanes;
+    // The last vectors may reach past the run.
+    const std::uint64_t allowed = at / tile_blocks < most_tiles ? run.allowed[at / tile_blocks] : 0;
+    return sum.largest(allowed, at % tile_blocks);
+  };
   for (std::int32_t list = 0; list < points.lists; ++list) {
     const std::int32_t bit = points.lists - 1 - list;
     const std::int32_t begin = points.list_begin[list];
@@ -96,7 +132,8 @@ bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile
       if constexpr (Vectors > 2) sum2.redouble();
       if constexpr (Vectors > 2) sum3.redouble();
     }
-    TileOffsets(planes, points, tile_col, tile_row, begin, end, offset);
+    if (!inside) TileOffsets(run.planes, points, run.col, run.row, begin, end, run.scratch);
+    const std::int32_t* HWY_RESTRICT offset = inside ? points.first_byte + begin : run.scratch;
     for (std::int32_t i = 0; i < end - begin;) {
       const std::int32_t look = std::min(end - begin, i + points_per_look);
       weight_left -= std::int64_t{look - i} << bit;
@@ -119,12 +156,13 @@ bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile
         if constexpr (Vectors > 2) sum2.add(bytes2);
         if constexpr (Vectors > 2) sum3.add(bytes3);
       }
-      if (bound_levels * weight_left >= threshold) continue;
-      auto largest = sum0.largest();
-      if constexpr (Vectors > 1) largest = hn::Max(largest, sum1.largest());
-      if constexpr (Vectors > 2) largest = hn::Max(largest, hn::Max(sum2.largest(), sum3.largest()));
+      if (bound_levels * weight_left >= run.threshold) continue;
+      auto largest = largest_of(sum0, 0);
+      if constexpr (Vectors > 1) largest = hn::Max(largest, largest_of(sum1, 1));
+      if constexpr (Vectors > 2) largest = hn::Max(largest, largest_of(sum2, 2));
+      if constexpr (Vectors > 2) largest = hn::Max(largest, largest_of(sum3, 3));
       const std::int64_t most = std::int64_t{hn::GetLane(hn::MaxOfLanes(WordTag(), largest))} << bit;
-      if (most + bound_levels * weight_left < threshold) return false;
+      if (most + bound_levels * weight_left < run.threshold) return false;
     }
   }
   const auto store = [&](const Sums& sum, std::size_t vector) HWY_ATTR {
@@ -138,11 +176,11 @@ bool BoundVectors(const BoundPlanes& planes, const BoundPoints& points, int tile
   return true;
 }
 
-std::uint16_t KeepAllowed(const std::uint16_t* HWY_RESTRICT allowed, std::uint16_t* HWY_RESTRICT sums) {
+std::uint16_t KeepAllowed(std::uint64_t allowed, std::uint16_t* HWY_RESTRICT sums) {
   const WordTag d;
   auto largest = hn::Zero(d);
   for (std::size_t i = 0; i < tile_blocks; i += hn::Lanes(d)) {
-    const auto kept = hn::And(hn::LoadU(d, allowed + i), hn::LoadU(d, sums + i));
+    const auto kept = KeepLanes(hn::LoadU(d, sums + i), allowed >> i);
     hn::StoreU(kept, d, sums + i);
     largest = hn::Max(largest, kept);
   }
@@ -150,32 +188,56 @@ std::uint16_t KeepAllowed(const std::uint16_t* HWY_RESTRICT allowed, std::uint16
 }
 
 void BoundTiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
-                int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                int threshold, const std::uint64_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
                 std::uint16_t* largest) {
   const std::size_t lanes = hn::Lanes(ByteTag());
   const std::size_t bytes = static_cast<std::size_t>(tiles) * tile_blocks;
-  // The last vectors may reach past the run: their sums end here.
-  HWY_ALIGN std::uint16_t run[most_tiles * tile_blocks];
+  // The last vectors may reach past the run: their sums end here, and nothing is allowed there.
+  HWY_ALIGN std::uint16_t run_sums[most_tiles * tile_blocks];
+  std::uint64_t run_allowed[most_tiles] = {};
+  std::copy_n(allowed, tiles, run_allowed);
+  const Run run{.planes = planes,
+                .points = points,
+                .col = tile_col,
+                .row = tile_row,
+                .threshold = threshold,
+                .allowed = run_allowed,
+                .scratch = scratch};
+  const bool inside = run.is_inside();
   for (int tile = 0; tile < tiles; ++tile) largest[tile] = 1;
   for (std::size_t at = 0; at < bytes;) {
     const std::size_t vectors_left = (bytes - at) / lanes;
     const std::size_t vectors = vectors_left >= 3 ? 4 : vectors_left;
-    const bool bounded =
-        vectors == 4   ? BoundVectors<4>(planes, points, tile_row, tile_col, at, threshold, scratch, run)
-        : vectors == 2 ? BoundVectors<2>(planes, points, tile_row, tile_col, at, threshold, scratch, run)
-                       : BoundVectors<1>(planes, points, tile_row, tile_col, at, threshold, scratch, run);
+    const bool bounded = vectors == 4   ? BoundVectors<4>(run, inside, at, run_sums)
+                         : vectors == 2 ? BoundVectors<2>(run, inside, at, run_sums)
+                                        : BoundVectors<1>(run, inside, at, run_sums);
     const std::size_t end = std::min(bytes, at + vectors * lanes);
     if (!bounded)
       for (std::size_t tile = at / tile_blocks; tile * tile_blocks < end; ++tile) largest[tile] = 0;
     at = end;
   }
-  std::copy_n(run, bytes, sums);
+  std::copy_n(run_sums, bytes, sums);
   for (int tile = 0; tile < tiles; ++tile)
-    if (largest[tile] != 0)
-      largest[tile] = KeepAllowed(allowed + tile * tile_blocks, sums + tile * tile_blocks);
+    if (largest[tile] != 0) largest[tile] = KeepAllowed(allowed[tile], sums + tile * tile_blocks);
 }
 
 #endif
+
+std::uint64_t LanesAtLeast(const std::uint16_t* sums, int least) {
+  const hn::CappedTag<std::uint16_t, tile_blocks / 2> d;
+  const auto bar = hn::Set(d, static_cast<std::uint16_t>(least));
+  std::uint64_t bits = 0;
+  for (std::size_t lane = 0; lane < tile_blocks; lane += hn::Lanes(d)) {
+    std::uint8_t some[8] = {};
+    const auto sum = hn::LoadU(d, sums + lane);
+    hn::StoreMaskBits(d, hn::Eq(sum, hn::Max(sum, bar)), some);
+    std::uint64_t word = 0;
+    std::memcpy(&word, some, sizeof(word));
+    bits |= word << lane;
+  }
+  return bits;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace landfall::kernels
 HWY_AFTER_NAMESPACE();
@@ -184,8 +246,15 @@ HWY_AFTER_NAMESPACE();
 namespace landfall::kernels {
 
 namespace scalar {
+std::uint64_t lanes_at_least(const std::uint16_t* sums, int least) {
+  std::uint64_t bits = 0;
+  for (int lane = 0; lane < tile_blocks; ++lane)
+    if (sums[lane] >= least) bits |= std::uint64_t{1} << lane;
+  return bits;
+}
+
 void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
-                 int /*threshold*/, const std::uint16_t* allowed, std::int32_t* /*scratch*/,
+                 int /*threshold*/, const std::uint64_t* allowed, std::int32_t* /*scratch*/,
                  std::uint16_t* sums, std::uint16_t* largest) {
   for (int tile = 0; tile < tiles; ++tile) {
     largest[tile] = 0;
@@ -202,7 +271,9 @@ void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_
         }
       }
       const int at = tile * tile_blocks + lane;
-      sums[at] = static_cast<std::uint16_t>(std::min<std::int64_t>(sum, 65535) & allowed[at]);
+      const bool is_allowed = ((allowed[tile] >> lane) & 1U) != 0;
+      sums[at] =
+          is_allowed ? static_cast<std::uint16_t>(std::min<std::int64_t>(sum, 65535)) : std::uint16_t{0};
       largest[tile] = std::max(largest[tile], sums[at]);
     }
   }
@@ -210,12 +281,18 @@ void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_
 }  // namespace scalar
 
 HWY_EXPORT(BoundTiles);
+HWY_EXPORT(LanesAtLeast);
 
 void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
-                 int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                 int threshold, const std::uint64_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
                  std::uint16_t* largest) {
   const auto bound = scalar_selected() ? scalar::bound_tiles : HWY_DYNAMIC_DISPATCH(BoundTiles);
   bound(planes, points, tile_col, tile_row, tiles, threshold, allowed, scratch, sums, largest);
+}
+
+std::uint64_t lanes_at_least(const std::uint16_t* sums, int least) {
+  return scalar_selected() ? scalar::lanes_at_least(sums, least)
+                           : HWY_DYNAMIC_DISPATCH(LanesAtLeast)(sums, least);
 }
 
 }  // namespace landfall::kernels

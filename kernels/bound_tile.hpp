@@ -34,9 +34,13 @@ struct BoundPoints {
   const std::int32_t* plane = nullptr;
   const std::int32_t* col = nullptr;
   const std::int32_t* row = nullptr;
+  const std::int32_t* first_byte =
+      nullptr;  // 4 * (plane + row * stride + col): of the tile (0, 0), unclamped
   const std::int32_t* list_begin = nullptr;  // [lists]
   const std::int32_t* list_end = nullptr;    // [lists]
   std::int32_t lists = 0;
+  std::int32_t least_col = 0, most_col = 0;  // of all points
+  std::int32_t least_row = 0, most_row = 0;
 };
 inline constexpr int point_padding = 16;
 
@@ -53,18 +57,22 @@ constexpr int lane_col(int lane) {
 
 // `tiles` of them (1 .. most_tiles), each tile_cols farther right than the one before.
 // sums[t * tile_blocks + tile_lane(c, r)]: the weighted sum over the points for block
-// (tile_row + r, tile_col + t * tile_cols + c), saturated at 65535, where `allowed` is all ones, 0 where it
-// is 0. largest[t]: the largest of a tile. A tile none of whose blocks can reach `threshold` (at most 65535)
-// may be given up: its sums are undefined then, and its largest is 0. `scratch` holds one element per point
-// of the longest list, and point_padding.
+// (tile_row + r, tile_col + t * tile_cols + c), saturated at 65535, where bit tile_lane(c, r) of allowed[t]
+// is set, 0 elsewhere. largest[t]: the largest of a tile. A tile none of whose allowed blocks can reach
+// `threshold` (at most 65535) may be given up: its sums are undefined then, and its largest is 0. `scratch`
+// holds one element per point of the longest list, and point_padding.
 void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
-                 int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                 int threshold, const std::uint64_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
                  std::uint16_t* largest);
 
+// Bit l: sums[l] >= least, of one tile. `least` 0 .. 65535.
+std::uint64_t lanes_at_least(const std::uint16_t* sums, int least);
+
 namespace scalar {
+std::uint64_t lanes_at_least(const std::uint16_t* sums, int least);
 void bound_tiles(const BoundPlanes& planes, const BoundPoints& points, int tile_col, int tile_row, int tiles,
-                 int threshold, const std::uint16_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
+                 int threshold, const std::uint64_t* allowed, std::int32_t* scratch, std::uint16_t* sums,
                  std::uint16_t* largest);
-}
+}  // namespace scalar
 
 }  // namespace landfall::kernels

@@ -6,41 +6,63 @@
 namespace landfall::internal {
 
 using kernels::block_cells;
+using kernels::tile_blocks;
 
-void BlockScorer::visit(int first_heading, int last_heading, int block_row, int block_col) {
+void BlockScorer::visit(const Node& node, int first_heading, int last_heading) {
+  const BlockMask* listed = nullptr;
   for (int heading = first_heading; heading < last_heading; ++heading) {
-    const SharedMask& mask = search_.query.domain.mask_of_heading[static_cast<std::size_t>(heading)];
-    const std::uint64_t allowed = mask == nullptr ? 0 : mask->at(block_col, block_row);
-    if (allowed != 0) visit(heading, allowed, block_row, block_col);
+    const BlockMask* mask = search_.query.domain.mask_of_heading[static_cast<std::size_t>(heading)].get();
+    if (mask == nullptr) continue;
+    if (mask != listed) list_blocks(node, *mask);
+    listed = mask;
+    if (!blocks_.empty()) visit_blocks(node, heading);
   }
 }
 
-// Indices and bound a part of the points at a time: most blocks are excluded by the first.
-std::int32_t BlockScorer::bound(const HeadingCells& cells, int block_row, int block_col,
-                                std::int32_t lowest) {
-  constexpr std::size_t points_at_a_time = 64;
-  const std::size_t points = index_.size();
-  std::int64_t sum = 0;
-  for (std::size_t first = 0; first < points; first += points_at_a_time) {
-    const std::size_t count = std::min(points_at_a_time, points - first);
-    kernels::window_indices(search_.planes, block_col * block_cells, block_row * block_cells,
-                            cells.col.data() + first, cells.row.data() + first, count, index_.data() + first);
-    sum += kernels::bound_block(search_.planes, index_.data() + first, count, 0);
-    const std::int64_t most = sum + 255 * static_cast<std::int64_t>(points - first - count);
-    if (most < lowest) return static_cast<std::int32_t>(most);
+void BlockScorer::list_blocks(const Node& node, const BlockMask& mask) {
+  blocks_.clear();
+  counted_.fill(0);
+  for (std::uint64_t lanes = node.lanes; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    const int col = kernels::lane_col(lane);
+    const int row = kernels::lane_row(lane);
+    const std::uint64_t allowed = mask.at(node.col + col, node.row + row);
+    if (allowed == 0) continue;
+    const std::size_t bound =
+        static_cast<std::size_t>(row) * kernels::tile_cols + static_cast<std::size_t>(col);
+    blocks_.push_back({.row = node.row + row, .col = node.col + col, .bound = bound, .allowed = allowed});
+    counted_[bound] = 0xFFFF;
   }
-  return static_cast<std::int32_t>(sum);
 }
 
-void BlockScorer::visit(int heading, std::uint64_t allowed, int block_row, int block_col) {
+// A single block is scored as fast as it is bounded. The best bound's block comes first: a good score
+// excludes others.
+void BlockScorer::visit_blocks(const Node& node, int heading) {
   const HeadingCells& cells = search_.heading_cells->at(heading);
-  const std::int32_t lowest = search_.lowest();
-  ++bounds_computed;
-  if (bound(cells, block_row, block_col, lowest) < lowest) return;
+  if (blocks_.size() == 1) return score(blocks_.front(), cells, heading, search_.lowest());
+  std::int32_t bounds[tile_blocks];
+  bounds_computed += static_cast<std::int64_t>(blocks_.size());
+  if (!kernels::bound_windows(search_.maxima, node.col * block_cells, node.row * block_cells,
+                              cells.col.data(), cells.row.data(), index_.size(), search_.lowest(),
+                              counted_.data(), bounds))
+    return;
+  std::iter_swap(blocks_.begin(),
+                 std::max_element(blocks_.begin(), blocks_.end(), [&](const Block& a, const Block& b) {
+                   return bounds[a.bound] < bounds[b.bound];
+                 }));
+  for (const Block& block : blocks_) {
+    const std::int32_t lowest = search_.lowest();
+    if (bounds[block.bound] >= lowest) score(block, cells, heading, lowest);
+  }
+}
+
+void BlockScorer::score(const Block& block, const HeadingCells& cells, int heading, std::int32_t lowest) {
   std::int32_t scores[kernels::block_poses];
-  poses_scored += std::popcount(allowed);
+  poses_scored += std::popcount(block.allowed);
+  kernels::window_indices(search_.planes, block.col * block_cells, block.row * block_cells, cells.col.data(),
+                          cells.row.data(), index_.size(), index_.data());
   if (!kernels::score_block(search_.planes, index_.data(), index_.size(), lowest, scores)) return;
-  const Candidate candidate = best_of_block(scores, allowed, heading, block_row, block_col);
+  const Candidate candidate = best_of_block(scores, block.allowed, heading, block.row, block.col);
   if (candidate.score < lowest) return;
   candidates.push_back(candidate);
   search_.best.raise(candidate.score);

@@ -1,41 +1,54 @@
-// Blocks of 8 x 8 poses at one heading: bounded, then scored. One per thread.
+// Blocks of 8 x 8 poses at one heading: bounded a tile at a time, then scored. One per thread.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
+#include <thread>
 #include <vector>
 
 #include "engine/methods/best_score.hpp"
+#include "engine/methods/dense_bounds.hpp"
 #include "engine/query.hpp"
 
 namespace landfall::internal {
 
 // Cells of the end points at every heading, computed when first asked for; by several threads at a time.
+// (std::call_once makes a system call each time; who comes meanwhile waits for less than a microsecond.)
 class HeadingCellsOnDemand {
  public:
   HeadingCellsOnDemand(const EndPoints& points, const Lattice& lattice)
       : points_(points),
         lattice_(lattice),
         cells_(static_cast<std::size_t>(lattice.headings)),
-        once_(std::make_unique<std::once_flag[]>(cells_.size())) {}
+        state_(std::make_unique<std::atomic<State>[]>(cells_.size())) {}
 
   const HeadingCells& at(int heading) {
     const auto k = static_cast<std::size_t>(heading);
-    std::call_once(once_[k], [&] { cells_at_heading(points_, lattice_, heading, cells_[k]); });
+    if (state_[k].load(std::memory_order_acquire) == State::ready) return cells_[k];
+    State expected = State::none;
+    if (state_[k].compare_exchange_strong(expected, State::under_way, std::memory_order_acquire)) {
+      cells_at_heading(points_, lattice_, heading, cells_[k]);
+      state_[k].store(State::ready, std::memory_order_release);
+    }
+    while (state_[k].load(std::memory_order_acquire) != State::ready) std::this_thread::yield();
     return cells_[k];
   }
 
  private:
+  enum class State : std::uint8_t { none, under_way, ready };
+
   const EndPoints& points_;
   const Lattice& lattice_;
   std::vector<HeadingCells> cells_;
-  std::unique_ptr<std::once_flag[]> once_;
+  std::unique_ptr<std::atomic<State>[]> state_;
 };
 
 // What the threads of one search share.
 struct SharedSearch {
   const Query& query;
+  kernels::WindowMaxima maxima;
   kernels::WindowPlanes planes;
   std::unique_ptr<HeadingCellsOnDemand> heading_cells;
   RivalMargin margin{};
@@ -49,19 +62,29 @@ class BlockScorer {
  public:
   explicit BlockScorer(SharedSearch& search) : search_(search), index_(search.query.points.size()) {}
 
-  // The block at every heading of [first, last).
-  void visit(int first_heading, int last_heading, int block_row, int block_col);
+  // A node's blocks at every heading of [first, last).
+  void visit(const Node& node, int first_heading, int last_heading);
 
   std::vector<Candidate> candidates;
   std::int64_t bounds_computed = 0;
   std::int64_t poses_scored = 0;
 
  private:
-  void visit(int heading, std::uint64_t allowed, int block_row, int block_col);
-  std::int32_t bound(const HeadingCells& cells, int block_row, int block_col, std::int32_t lowest);
+  struct Block {
+    int row;
+    int col;
+    std::size_t bound;      // among those of bound_windows
+    std::uint64_t allowed;  // poses
+  };
+
+  void list_blocks(const Node& node, const BlockMask& mask);
+  void visit_blocks(const Node& node, int heading);
+  void score(const Block& block, const HeadingCells& cells, int heading, std::int32_t lowest);
 
   SharedSearch& search_;
   std::vector<std::int32_t> index_;
+  std::vector<Block> blocks_;  // of the node, with poses of the prior at the heading
+  std::array<std::uint16_t, kernels::tile_blocks> counted_{};  // all ones where there is a block
 };
 
 }  // namespace landfall::internal

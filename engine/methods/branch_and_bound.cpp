@@ -1,7 +1,7 @@
 // The same optimum as `exhaustive`, proven, without scoring every pose (Olson 2009, 2015; Hess et al.
 // 2016). What is ours: bounds are computed densely, many neighbouring blocks in a vector, for groups of
 // headings, over all tiles that hold a free cell; their best blocks give the first incumbent; what
-// survives it is bounded heading by heading and then scored 64 poses at a time, best bound first.
+// survives it is bounded heading by heading, again a tile at a time, and then scored 64 poses at a time.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -22,6 +22,7 @@ class BranchAndBound {
       : query_(query),
         groups_(choose_groups(query.points, query.lattice)),
         search_{.query = query,
+                .maxima = query.map.window_tables().maxima(),
                 .planes = query.map.window_tables().planes(),
                 .heading_cells = std::make_unique<HeadingCellsOnDemand>(query.points, query.lattice),
                 .margin = query.margin} {}
@@ -45,20 +46,19 @@ class BranchAndBound {
   // The headings in the middle come first: the robot is mostly where a prior says, and a good pose early
   // excludes the others.
   void take_all_blocks() {
-    const BlockSet blocks = blocks_of(query_.domain.mask_of_heading);
+    const TileLayout layout(blocks_of(query_.domain.mask_of_heading));
     std::vector<int> groups;
     for (int group = 0; group < groups_.count(); ++group)
       if (has_poses(group)) groups.push_back(group);
     const auto middle = static_cast<std::ptrdiff_t>(groups.size() / 2);
     std::rotate(groups.begin(), groups.begin() + middle, groups.end());
     for (const int group : groups)
-      for (int row = blocks.first_row; row < blocks.first_row + blocks.rows; ++row)
-        for (int col = blocks.first_col; col < blocks.first_col + blocks.cols; ++col)
-          if (blocks.contains(col, row))
-            nodes_.push_back({.bound = no_bound,
-                              .group = static_cast<std::uint16_t>(group),
-                              .row = static_cast<std::uint16_t>(row),
-                              .col = static_cast<std::uint16_t>(col)});
+      for (std::size_t tile = 0; tile < layout.size(); ++tile)
+        nodes_.push_back({.lanes = layout.allowed[tile],
+                          .bound = no_bound,
+                          .group = static_cast<std::uint16_t>(group),
+                          .row = static_cast<std::uint16_t>(layout.tiles[tile].row),
+                          .col = static_cast<std::uint16_t>(layout.tiles[tile].col)});
   }
 
   [[nodiscard]] bool has_poses(int group) const {
@@ -88,12 +88,12 @@ class BranchAndBound {
                            .groups = groups_.doubled(),
                            .layout = tiles->large};
     CoarseBounds coarse(large);
-    FineBounds fine(small, coarse, tiles->tile_of_lane);
+    FineBounds fine(small, coarse, tiles->parts);
     for (int first = 0; first < large.groups.count() && !query_.out_of_time();
          first += coarse.groups_at_a_time()) {
       const int last = std::min(large.groups.count(), first + coarse.groups_at_a_time());
       proposal_.counts.bounds_computed += coarse.compute(first, last);
-      find_incumbent(fine.best_of_tiles(first, last, coarse.bound_of_best(promising_share), dives));
+      find_incumbent(fine.best_of_tiles(first, last, coarse.best(promising_share), dives));
       const std::vector<Node> survivors = fine.survivors(first, last, search_.lowest());
       nodes_.insert(nodes_.end(), survivors.begin(), survivors.end());
     }
@@ -121,11 +121,11 @@ class BranchAndBound {
   }
 
   void visit(BlockScorer& scorer, const Node& node) const {
-    scorer.visit(groups_.first(node.group), groups_.last(node.group), node.row, node.col);
+    scorer.visit(node, groups_.first(node.group), groups_.last(node.group));
   }
 
   void score_survivors() {
-    constexpr std::size_t nodes_per_turn = 16;
+    constexpr std::size_t nodes_per_turn = 2;
     const auto turns = static_cast<int>(nodes_.size() / nodes_per_turn) + 1;
     std::vector<std::unique_ptr<BlockScorer>> scorers(
         static_cast<std::size_t>(std::min(thread_count(query_.threads), turns)));

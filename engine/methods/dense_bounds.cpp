@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <functional>
 #include <numeric>
 
@@ -15,15 +16,19 @@ using kernels::tile_blocks;
 
 constexpr std::size_t most_bounds = std::size_t{1} << 25;  // 64 MB
 
-std::vector<std::int32_t> make_scratch(const Query& query) {
-  return std::vector<std::int32_t>(query.points.size() + kernels::point_padding);
+// One a thread, for a search asks for it hundreds of times.
+std::int32_t* scratch_of_thread(const Query& query) {
+  static thread_local std::vector<std::int32_t> scratch;
+  scratch.resize(query.points.size() + kernels::point_padding);
+  return scratch.data();
 }
 
-Node make_node(int group, const TileLayout::Tile& tile, std::size_t lane, std::int32_t bound) {
-  return {.bound = static_cast<std::uint16_t>(std::min<std::int32_t>(bound, no_bound)),
+Node make_node(int group, const TileLayout::Tile& tile, std::uint64_t lanes, std::int32_t bound) {
+  return {.lanes = lanes,
+          .bound = static_cast<std::uint16_t>(std::min<std::int32_t>(bound, no_bound)),
           .group = static_cast<std::uint16_t>(group),
-          .row = static_cast<std::uint16_t>(tile.row + kernels::lane_row(static_cast<int>(lane))),
-          .col = static_cast<std::uint16_t>(tile.col + kernels::lane_col(static_cast<int>(lane)))};
+          .row = static_cast<std::uint16_t>(tile.row),
+          .col = static_cast<std::uint16_t>(tile.col)};
 }
 
 }  // namespace
@@ -53,48 +58,53 @@ std::int64_t CoarseBounds::compute(int first, int last) {
                   std::uint16_t{0});
       return;
     }
-    GroupPoints points;
+    static thread_local GroupPoints points;
     points.build(level_.query.points, level_.query.lattice, level_.table, level_.groups.first(group),
                  level_.groups.last(group));
     unbounded_[g] = points.unbounded();
-    std::vector<std::int32_t> scratch = make_scratch(level_.query);
+    std::int32_t* scratch = scratch_of_thread(level_.query);
     for (const TileLayout::Run& run : layout.runs) {
       const std::size_t at = g * layout.size() + run.first;
       const TileLayout::Tile& tile = layout.tiles[run.first];
       kernels::bound_tiles(level_.table.planes(), points.view(), tile.col, tile.row, run.tiles, 0,
-                           layout.allowed.data() + std::size_t{run.first} * tile_blocks, scratch.data(),
-                           bounds_.data() + at * tile_blocks, largest_.data() + at);
+                           layout.allowed.data() + run.first, scratch, bounds_.data() + at * tile_blocks,
+                           largest_.data() + at);
     }
   });
   return static_cast<std::int64_t>(count * layout.size() * tile_blocks);
 }
 
-std::int64_t CoarseBounds::bound_of_best(double share_of_tiles) const {
-  if (largest_.empty()) return 0;
+CoarseChoice CoarseBounds::best(double share_of_tiles) const {
+  if (largest_.empty()) return {};
   std::vector<std::int64_t> bounds;
   bounds.reserve(largest_.size());
   for (std::size_t i = 0; i < largest_.size(); ++i)
     bounds.push_back(largest_[i] +
                      std::int64_t{unbounded_[i / level_.layout.size()]} * kernels::bound_levels);
-  const auto wanted =
-      bounds.begin() + static_cast<std::ptrdiff_t>(share_of_tiles * static_cast<double>(bounds.size() - 1));
-  std::nth_element(bounds.begin(), wanted, bounds.end(), std::greater<>());
-  return *wanted;
+  const auto wanted = static_cast<std::size_t>(share_of_tiles * static_cast<double>(bounds.size() - 1));
+  std::nth_element(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(wanted), bounds.end(),
+                   std::greater<>());
+  const std::int64_t bound = bounds[wanted];
+  const auto last_better =
+      std::partition(bounds.begin(), bounds.end(), [&](std::int64_t b) { return b > bound; });
+  const auto equal = static_cast<std::size_t>(std::count(last_better, bounds.end(), bound));
+  return {.bound = bound, .one_in = std::max<std::size_t>(1, equal / (8 * (wanted + 1)))};
 }
 
-bool CoarseBounds::mark(int group, std::int64_t bound, std::span<const std::int32_t> tile_of_lane,
-                        std::vector<std::uint8_t>& needed) const {
+bool CoarseBounds::mark(int group, const CoarseChoice& choice, std::span<const SearchTiles::Parts> parts,
+                        std::vector<std::uint64_t>& needed) const {
   const auto g = static_cast<std::size_t>(group - first_);
-  const int least = BoundLevel::least_sum(bound, unbounded_[g]);
+  const int least = BoundLevel::least_sum(choice.bound, unbounded_[g]);
   bool any = false;
   for (std::size_t t = 0; t < level_.layout.size(); ++t) {
     const std::size_t at = g * level_.layout.size() + t;
-    if (largest_[at] < least) continue;
+    if (largest_[at] < least || (largest_[at] == least && at % choice.one_in != 0)) continue;
     any = true;
-    const std::uint16_t* sums = bounds_.data() + at * tile_blocks;
-    for (std::size_t lane = 0; lane < tile_blocks; ++lane) {
-      const std::int32_t tile = tile_of_lane[t * tile_blocks + lane];
-      if (sums[lane] >= least && tile >= 0) needed[static_cast<std::size_t>(tile)] = 1;
+    std::uint64_t lanes = kernels::lanes_at_least(bounds_.data() + at * tile_blocks, least);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const SearchTiles::Parts& part =
+          parts[t * tile_blocks + static_cast<std::size_t>(std::countr_zero(lanes))];
+      needed[static_cast<std::size_t>(part.tile)] |= part.lanes;
     }
   }
   return any;
@@ -104,20 +114,22 @@ struct FineBounds::Tile {
   int group;
   int least;  // of its sums
   std::size_t index;
+  std::uint64_t allowed;
   std::int32_t unbounded;
   std::uint16_t largest;
   const std::uint16_t* sums;
 };
 
 template <class Take>
-std::int64_t FineBounds::visit_group(int group, std::int64_t bound, const std::vector<std::uint8_t>& needed,
-                                     std::vector<std::int32_t>& scratch, const Take& take) {
+std::int64_t FineBounds::visit_group(int group, std::int64_t bound, std::span<const std::uint64_t> needed,
+                                     const Take& take) {
   const TileLayout& layout = level_.layout;
   GroupPoints& points = points_[static_cast<std::size_t>(group)];
   if (!points.is_built())
     points.build(level_.query.points, level_.query.lattice, level_.table, level_.groups.first(group),
                  level_.groups.last(group));
   const int least = BoundLevel::least_sum(bound, points.unbounded());
+  std::int32_t* scratch = scratch_of_thread(level_.query);
   std::array<std::uint16_t, kernels::most_tiles * tile_blocks> sums;
   std::array<std::uint16_t, kernels::most_tiles> largest;
   std::int64_t tiles_computed = 0;
@@ -129,14 +141,15 @@ std::int64_t FineBounds::visit_group(int group, std::int64_t bound, const std::v
     if (begin == end) continue;
     const TileLayout::Tile& tile = layout.tiles[begin];
     kernels::bound_tiles(level_.table.planes(), points.view(), tile.col, tile.row,
-                         static_cast<int>(end - begin), least, layout.allowed.data() + begin * tile_blocks,
-                         scratch.data(), sums.data(), largest.data());
+                         static_cast<int>(end - begin), least, needed.data() + begin, scratch, sums.data(),
+                         largest.data());
     tiles_computed += static_cast<std::int64_t>(end - begin);
     for (std::size_t t = begin; t < end; ++t)
       if (needed[t] != 0 && largest[t - begin] >= least)
         take(Tile{.group = group,
                   .least = least,
                   .index = t,
+                  .allowed = needed[t],
                   .unbounded = points.unbounded(),
                   .largest = largest[t - begin],
                   .sums = sums.data() + (t - begin) * tile_blocks});
@@ -144,21 +157,21 @@ std::int64_t FineBounds::visit_group(int group, std::int64_t bound, const std::v
   return tiles_computed;
 }
 
-// take(i, tile) for every tile with a bound of at least `bound` that a coarse block of at least
-// `coarse_bound` leads to; i: the coarse group, counted from `first`.
+// take(i, tile) for every tile with a bound of at least `bound` that a chosen coarse block leads to; i: the
+// coarse group, counted from `first`.
 template <class Take>
-void FineBounds::visit_tiles(int first, int last, std::int64_t coarse_bound, std::int64_t bound,
+void FineBounds::visit_tiles(int first, int last, const CoarseChoice& choice, std::int64_t bound,
                              const Take& take) {
   const TileLayout& layout = level_.layout;
   std::atomic<std::int64_t> tiles_computed{0};
   parallel_for(static_cast<std::size_t>(last - first), level_.query.threads, [&](std::size_t g) {
     const int coarse_group = first + static_cast<int>(g);
-    std::vector<std::uint8_t> needed(layout.size());
-    if (level_.query.out_of_time() || !coarse_.mark(coarse_group, coarse_bound, tile_of_lane_, needed))
-      return;
-    std::vector<std::int32_t> scratch = make_scratch(level_.query);
+    static thread_local std::vector<std::uint64_t> needed;
+    needed.assign(layout.size(), 0);
+    if (level_.query.out_of_time() || !coarse_.mark(coarse_group, choice, parts_, needed)) return;
+    for (std::size_t t = 0; t < needed.size(); ++t) needed[t] &= layout.allowed[t];
     for (int group = 2 * coarse_group; group < std::min(2 * coarse_group + 2, level_.groups.count()); ++group)
-      tiles_computed += visit_group(group, bound, needed, scratch, [&](const Tile& tile) { take(g, tile); });
+      tiles_computed += visit_group(group, bound, needed, [&](const Tile& tile) { take(g, tile); });
   });
   bounds_computed += tiles_computed * tile_blocks;
 }
@@ -176,12 +189,12 @@ std::vector<Node> joined(const std::vector<std::vector<Node>>& found) {
 
 }  // namespace
 
-std::vector<Node> FineBounds::best_of_tiles(int first, int last, std::int64_t bound, std::size_t most) {
+std::vector<Node> FineBounds::best_of_tiles(int first, int last, const CoarseChoice& choice,
+                                            std::size_t most) {
   std::vector<std::vector<Node>> found(static_cast<std::size_t>(last - first));
-  visit_tiles(first, last, bound, 0, [&](std::size_t i, const Tile& tile) {
-    const auto lane =
-        static_cast<std::size_t>(std::max_element(tile.sums, tile.sums + tile_blocks) - tile.sums);
-    found[i].push_back(make_node(tile.group, level_.layout.tiles[tile.index], lane,
+  visit_tiles(first, last, choice, 0, [&](std::size_t i, const Tile& tile) {
+    const std::uint64_t best = kernels::lanes_at_least(tile.sums, tile.largest) & tile.allowed;
+    found[i].push_back(make_node(tile.group, level_.layout.tiles[tile.index], best & (0 - best),
                                  tile.largest + tile.unbounded * kernels::bound_levels));
   });
   std::vector<Node> all = joined(found);
@@ -192,12 +205,11 @@ std::vector<Node> FineBounds::best_of_tiles(int first, int last, std::int64_t bo
 
 std::vector<Node> FineBounds::survivors(int first, int last, std::int32_t lowest) {
   std::vector<std::vector<Node>> found(static_cast<std::size_t>(last - first));
-  visit_tiles(first, last, table_units(lowest), table_units(lowest), [&](std::size_t i, const Tile& tile) {
-    const std::uint16_t* allowed = level_.layout.allowed.data() + tile.index * tile_blocks;
-    for (std::size_t lane = 0; lane < tile_blocks; ++lane)
-      if (tile.sums[lane] >= tile.least && allowed[lane] != 0)
-        found[i].push_back(make_node(tile.group, level_.layout.tiles[tile.index], lane,
-                                     tile.sums[lane] + tile.unbounded * kernels::bound_levels));
+  const std::int64_t bound = table_units(lowest);
+  visit_tiles(first, last, {.bound = bound}, bound, [&](std::size_t i, const Tile& tile) {
+    const std::uint64_t lanes = kernels::lanes_at_least(tile.sums, tile.least) & tile.allowed;
+    found[i].push_back(make_node(tile.group, level_.layout.tiles[tile.index], lanes,
+                                 tile.largest + tile.unbounded * kernels::bound_levels));
   });
   return joined(found);
 }

@@ -13,11 +13,12 @@
 
 namespace landfall::internal {
 
-// A block of 8 x 8 cells for a group of headings, with an upper bound of its scores.
+// Blocks of 8 x 8 cells in a tile, for a group of headings, with an upper bound of their scores.
 struct Node {
+  std::uint64_t lanes = 0;  // bit per block, see kernels::tile_lane
   std::uint16_t bound = 0;  // table units, see GroupPoints
   std::uint16_t group = 0;
-  std::uint16_t row = 0;  // block
+  std::uint16_t row = 0;  // of the tile's first block
   std::uint16_t col = 0;
 };
 // The bound of a node that nobody computed.
@@ -34,6 +35,13 @@ struct BoundLevel {
   static int least_sum(std::int64_t bound, std::int32_t unbounded);
 };
 
+// Which coarse blocks: those of at least this bound. Of the tiles that have no more than just that, one in so
+// many: where bounds are saturated, most tiles have.
+struct CoarseChoice {
+  std::int64_t bound = 0;
+  std::size_t one_in = 1;
+};
+
 // All bounds of some groups on the coarse level.
 class CoarseBounds {
  public:
@@ -43,11 +51,11 @@ class CoarseBounds {
   [[nodiscard]] int groups_at_a_time() const;
   // Of groups [first, last). Bounds computed.
   std::int64_t compute(int first, int last);
-  // The bound that so large a share of the tiles has a block of.
-  [[nodiscard]] std::int64_t bound_of_best(double share_of_tiles) const;
-  // Sets needed[tile_of_lane[...]] for every block of a group whose bound is at least `bound`. True: any.
-  bool mark(int group, std::int64_t bound, std::span<const std::int32_t> tile_of_lane,
-            std::vector<std::uint8_t>& needed) const;
+  // So large a share of the tiles, the best ones.
+  [[nodiscard]] CoarseChoice best(double share_of_tiles) const;
+  // Adds the parts of every chosen block of a group to needed[fine tile]. True: any.
+  bool mark(int group, const CoarseChoice& choice, std::span<const SearchTiles::Parts> parts,
+            std::vector<std::uint64_t>& needed) const;
 
  private:
   const BoundLevel& level_;
@@ -57,20 +65,21 @@ class CoarseBounds {
   std::vector<std::int32_t> unbounded_;  // [group - first]
 };
 
-// Blocks of 8 x 8 cells, in tiles that hold a coarse block of a given bound. Groups [first, last) are coarse
+// Blocks of 8 x 8 cells that are parts of a coarse block of a given bound. Groups [first, last) are coarse
 // ones; each holds two fine ones.
 class FineBounds {
  public:
-  FineBounds(const BoundLevel& level, const CoarseBounds& coarse, std::span<const std::int32_t> tile_of_lane)
+  FineBounds(const BoundLevel& level, const CoarseBounds& coarse, std::span<const SearchTiles::Parts> parts)
       : level_(level),
         coarse_(coarse),
-        tile_of_lane_(tile_of_lane),
+        parts_(parts),
         points_(static_cast<std::size_t>(level.groups.count())) {}
 
-  // The best block of every tile and group that a coarse block of at least `bound` leads to; the best `most`
-  // of them, best first.
-  [[nodiscard]] std::vector<Node> best_of_tiles(int first, int last, std::int64_t bound, std::size_t most);
-  // All blocks where a pose may reach `lowest`, as far as both levels tell.
+  // The best block of every tile and group that the chosen coarse blocks lead to; the best `most` of these
+  // blocks, best first.
+  [[nodiscard]] std::vector<Node> best_of_tiles(int first, int last, const CoarseChoice& choice,
+                                                std::size_t most);
+  // All blocks where a pose may reach `lowest`, as far as both levels tell, by tile.
   [[nodiscard]] std::vector<Node> survivors(int first, int last, std::int32_t lowest);
 
   std::int64_t bounds_computed = 0;
@@ -78,14 +87,14 @@ class FineBounds {
  private:
   struct Tile;
   template <class Take>
-  std::int64_t visit_group(int group, std::int64_t bound, const std::vector<std::uint8_t>& needed,
-                           std::vector<std::int32_t>& scratch, const Take& take);
+  std::int64_t visit_group(int group, std::int64_t bound, std::span<const std::uint64_t> needed,
+                           const Take& take);
   template <class Take>
-  void visit_tiles(int first, int last, std::int64_t coarse_bound, std::int64_t bound, const Take& take);
+  void visit_tiles(int first, int last, const CoarseChoice& choice, std::int64_t bound, const Take& take);
 
   const BoundLevel& level_;
   const CoarseBounds& coarse_;
-  std::span<const std::int32_t> tile_of_lane_;
+  std::span<const SearchTiles::Parts> parts_;
   std::vector<GroupPoints> points_;  // [group], where built
 };
 

@@ -4,45 +4,26 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "kernels/point_windows.hpp"
 
 namespace landfall::internal {
-
 namespace {
 
-// What a build needs meanwhile.
+// What a build needs meanwhile; kept, for a search builds hundreds.
 struct Workspace {
-  std::vector<std::int32_t> col_half, row_half, size_halves;
-  std::vector<std::uint32_t> run_begin;  // of equal windows side by side, and the end of the last
-  std::vector<MergedPoint> merged;
+  std::vector<std::int32_t> col_half, row_half, size_halves, run_begin;
+  std::vector<std::int32_t> plane, col, row, weight;
 
   void resize(std::size_t points) {
-    col_half.resize(points);
-    row_half.resize(points);
-    size_halves.resize(points);
-    run_begin.resize(points + 1);
-    merged.clear();
+    for (auto* numbers : {&col_half, &row_half, &size_halves, &run_begin, &plane, &col, &row, &weight})
+      numbers->resize(points + kernels::point_padding);
+  }
+  [[nodiscard]] kernels::MergedWindows merged() {
+    return {.plane = plane.data(), .col = col.data(), .row = row.data(), .weight = weight.data()};
   }
 };
-
-// How many. No branch hangs on where a run ends, which cannot be foretold (bench_search).
-std::size_t find_runs(Workspace& work) {
-  const std::size_t points = work.col_half.size();
-  const std::int32_t* col = work.col_half.data();
-  const std::int32_t* row = work.row_half.data();
-  const std::int32_t* size = work.size_halves.data();
-  std::uint32_t* begin = work.run_begin.data();
-  std::size_t runs = 1;
-  begin[0] = 0;
-  for (std::size_t i = 1; i < points; ++i) {
-    begin[runs] = static_cast<std::uint32_t>(i);
-    const std::int32_t differs = (col[i] ^ col[i - 1]) | (row[i] ^ row[i - 1]) | (size[i] ^ size[i - 1]);
-    runs += differs != 0 ? 1 : 0;
-  }
-  begin[runs] = static_cast<std::uint32_t>(points);
-  return runs;
-}
 
 }  // namespace
 
@@ -62,62 +43,36 @@ void GroupPoints::build(const EndPoints& points, const Lattice& lattice, const B
                           .height_cells = lattice.height_cells,
                           .block_cells = table.block_cells()},
                          work.col_half.data(), work.row_half.data(), work.size_halves.data());
-  constexpr std::uint32_t heaviest = (1U << most_lists) - 1;
-  unbounded_ = 0;
-  const std::size_t runs = find_runs(work);
-  for (std::size_t run = 0; run < runs; ++run) {
-    const std::uint32_t begin = work.run_begin[run];
-    std::uint32_t weight = work.run_begin[run + 1] - begin;
-    const std::int32_t size = work.size_halves[begin];
-    if (size == 0) continue;
-    const int window = BoundTable::window_index(size);
-    if (window < 0) {
-      unbounded_ += static_cast<std::int32_t>(weight);
-      continue;
-    }
-    MergedPoint point{.plane = table.plane(window, work.row_half[begin] & 1, work.col_half[begin] & 1),
-                      .col = (work.col_half[begin] >> 1) + BoundTable::pad_cols,
-                      .row = (work.row_half[begin] >> 1) + BoundTable::pad_rows,
-                      .weight = weight};
-    for (; weight > heaviest; weight -= heaviest) {
-      point.weight = heaviest;
-      work.merged.push_back(point);
-    }
-    point.weight = weight;
-    work.merged.push_back(point);
+  const kernels::MergedWindows merged = work.merged();
+  merged_ = kernels::merge_windows(work.col_half.data(), work.row_half.data(), work.size_halves.data(),
+                                   points.size(), table.shelf(), work.run_begin.data(), merged);
+  // A point of weight w stands in at most w lists.
+  if (room_ != points.size() + kernels::point_padding) {
+    room_ = points.size() + kernels::point_padding;
+    numbers_ = std::make_unique_for_overwrite<std::int32_t[]>(4 * room_);
   }
-  fill_lists(work.merged, points.size());
-}
-
-void GroupPoints::fill_lists(const std::vector<MergedPoint>& merged, std::size_t points) {
-  const std::size_t room = points + kernels::point_padding;  // a point of weight w stands in at most w lists
-  plane_.resize(room);
-  col_.resize(room);
-  row_.resize(room);
-  std::uint32_t all_bits = 1;  // one list at least
-  for (const MergedPoint& point : merged) all_bits |= point.weight;
-  lists_ = static_cast<int>(std::bit_width(all_bits));
+  lists_ = std::max(1, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(merged_.weights))));
   std::size_t at = 0;
   for (int list = 0; list < lists_; ++list) {
-    const int bit = lists_ - 1 - list;
     list_begin_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(at);
-    for (const MergedPoint& point : merged) {
-      plane_[at] = point.plane;
-      col_[at] = point.col;
-      row_[at] = point.row;
-      at += (point.weight >> bit) & 1U;
-    }
+    at += kernels::list_windows(merged, merged_.windows, lists_ - 1 - list, table.shelf().stride,
+                                numbers(0) + at, numbers(1) + at, numbers(2) + at, numbers(3) + at);
     list_end_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(at);
   }
 }
 
 kernels::BoundPoints GroupPoints::view() const {
-  return {.plane = plane_.data(),
-          .col = col_.data(),
-          .row = row_.data(),
+  return {.plane = numbers(0),
+          .col = numbers(1),
+          .row = numbers(2),
+          .first_byte = numbers(3),
           .list_begin = list_begin_.data(),
           .list_end = list_end_.data(),
-          .lists = lists_};
+          .lists = lists_,
+          .least_col = merged_.least_col,
+          .most_col = merged_.most_col,
+          .least_row = merged_.least_row,
+          .most_row = merged_.most_row};
 }
 
 }  // namespace landfall::internal

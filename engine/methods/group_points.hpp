@@ -4,10 +4,11 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "engine/end_points.hpp"
 #include "engine/search_tables.hpp"
+#include "kernels/merge_windows.hpp"
 
 namespace landfall::internal {
 
@@ -15,14 +16,6 @@ namespace landfall::internal {
 inline std::int64_t table_units(std::int32_t score) {
   return (std::int64_t{score} * kernels::bound_levels + 254) / 255;
 }
-
-// Neighbouring points that share a window.
-struct MergedPoint {
-  std::int32_t plane;
-  std::int32_t col;
-  std::int32_t row;
-  std::uint32_t weight;
-};
 
 class GroupPoints {
  public:
@@ -32,18 +25,20 @@ class GroupPoints {
   [[nodiscard]] bool is_built() const { return lists_ > 0; }
   [[nodiscard]] kernels::BoundPoints view() const;
   // Points whose end moves over more cells than the widest window: they bound nothing, and count in full.
-  [[nodiscard]] std::int32_t unbounded() const { return unbounded_; }
+  [[nodiscard]] std::int32_t unbounded() const { return merged_.unbounded; }
 
  private:
-  static constexpr int most_lists = 8;
+  static constexpr std::size_t most_lists = 31;  // as many as a weight has bits
 
-  void fill_lists(const std::vector<MergedPoint>& merged, std::size_t points);
+  // What BoundPoints points to, `room_` elements each, one list after the other.
+  [[nodiscard]] std::int32_t* numbers(std::size_t which) const { return numbers_.get() + which * room_; }
 
-  std::vector<std::int32_t> plane_, col_, row_;  // one list after the other
+  std::size_t room_ = 0;
+  std::unique_ptr<std::int32_t[]> numbers_;  // plane, col, row, first_byte
   std::array<std::int32_t, most_lists> list_begin_{};
   std::array<std::int32_t, most_lists> list_end_{};
   int lists_ = 0;
-  std::int32_t unbounded_ = 0;
+  kernels::MergedCount merged_;
 };
 
 }  // namespace landfall::internal

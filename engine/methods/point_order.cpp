@@ -1,6 +1,7 @@
 #include "engine/methods/point_order.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 namespace landfall::internal {
@@ -10,15 +11,21 @@ EndPoints most_telling_first(const EndPoints& points, SharedSearch& search, cons
   constexpr std::size_t most_sampled = 64;
   using kernels::block_cells;
   const std::size_t sampled = std::min(most_sampled, nodes.size());
-  std::vector<std::int32_t> index(points.size());
+  const kernels::WindowMaxima& maxima = search.maxima;
   std::vector<std::int64_t> seen(points.size());  // sum of the windows' maxima
   for (std::size_t i = 0; i < sampled; ++i) {
     const Node& node = nodes[i * nodes.size() / sampled];
     const HeadingCells& cells =
         search.heading_cells->at((groups.first(node.group) + groups.last(node.group)) / 2);
-    kernels::window_indices(search.planes, node.col * block_cells, node.row * block_cells, cells.col.data(),
-                            cells.row.data(), points.size(), index.data());
-    for (std::size_t p = 0; p < points.size(); ++p) seen[p] += search.planes.window_max[index[p]];
+    const int lane = std::countr_zero(node.lanes);
+    const int col = (node.col + kernels::lane_col(lane)) * block_cells + kernels::WindowMaxima::pad_cols;
+    const int row = (node.row + kernels::lane_row(lane)) * block_cells + kernels::WindowMaxima::pad_rows;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const std::int32_t index =
+          maxima.index(std::clamp(col + cells.col[p], 0, maxima.width + kernels::WindowMaxima::pad_cols),
+                       std::clamp(row + cells.row[p], 0, maxima.height + kernels::WindowMaxima::pad_rows));
+      seen[p] += maxima.window_max[index];
+    }
   }
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "instruction_sets.hpp"
 #include "random_field.hpp"
@@ -28,15 +29,17 @@ struct TileRun {
 
   int cols, rows;
   std::vector<std::uint32_t> column_of_4;
-  Integers plane, col, row, list_begin, list_end;
+  Integers plane, col, row, first_byte, list_begin, list_end;
   int tile_col, tile_row, tiles;
-  std::vector<std::uint16_t> allowed;
+  std::vector<std::uint64_t> allowed;
+  std::size_t listed = 0;
 
-  TileRun(testing::RandomField& random, int points, int heaviest)
+  // `inside`: no point's run of tiles begins beyond the planes.
+  TileRun(testing::RandomField& random, int points, int heaviest, bool inside = false)
       : cols(kernels::run_cols + random.between(0, 90)),
         rows(tile_rows + random.between(0, 30)),
-        tile_col(random.between(-10, cols)),
-        tile_row(random.between(-10, rows)),
+        tile_col(inside ? cols / 2 : random.between(-10, cols)),
+        tile_row(inside ? rows / 2 : random.between(-10, rows)),
         tiles(random.between(1, kernels::most_tiles)) {
     const std::vector<std::uint8_t> levels =
         random.bytes(4 * testing::area(planes_kept * cols, rows), kernels::bound_levels);
@@ -46,8 +49,12 @@ struct TileRun {
     const auto count = static_cast<std::size_t>(points);
     const Integers weights = random.integers(count, 1, heaviest);
     const Integers planes_of = random.integers(count, 0, planes_kept - 1);
-    const Integers cols_of = random.integers(count, -cols, cols);
-    const Integers rows_of = random.integers(count, -rows, rows);
+    const int last_col = cols - kernels::run_cols;
+    const int last_row = rows - tile_rows;
+    const Integers cols_of =
+        inside ? random.integers(count, -tile_col, last_col - tile_col) : random.integers(count, -cols, cols);
+    const Integers rows_of =
+        inside ? random.integers(count, -tile_row, last_row - tile_row) : random.integers(count, -rows, rows);
     for (int bit = static_cast<int>(std::bit_width(static_cast<unsigned>(heaviest))) - 1; bit >= 0; --bit) {
       list_begin.push_back(static_cast<std::int32_t>(plane.size()));
       for (std::size_t i = 0; i < count; ++i) {
@@ -55,12 +62,18 @@ struct TileRun {
         plane.push_back(planes_of[i] * cols * rows);
         col.push_back(cols_of[i]);
         row.push_back(rows_of[i]);
+        first_byte.push_back(4 * (plane.back() + row.back() * cols + col.back()));
       }
       list_end.push_back(static_cast<std::int32_t>(plane.size()));
     }
-    for (Integers* padded : {&plane, &col, &row}) padded->resize(padded->size() + kernels::point_padding);
-    for (int i = 0; i < tiles * tile_blocks; ++i)
-      allowed.push_back(random.between(0, 3) == 0 ? std::uint16_t{0} : std::uint16_t{0xFFFF});
+    for (int tile = 0; tile < tiles; ++tile) {
+      allowed.push_back(0);
+      for (int lane = 0; lane < tile_blocks; ++lane)
+        if (random.between(0, 3) != 0) allowed.back() |= std::uint64_t{1} << lane;
+    }
+    listed = plane.size();
+    for (Integers* padded : {&plane, &col, &row, &first_byte})
+      padded->resize(padded->size() + kernels::point_padding);
   }
 
   [[nodiscard]] kernels::BoundPlanes planes() const {
@@ -70,16 +83,26 @@ struct TileRun {
             .last_row = rows - tile_rows};
   }
   [[nodiscard]] kernels::BoundPoints points() const {
+    const auto range = [&](const Integers& of) {
+      const auto end = of.begin() + static_cast<std::ptrdiff_t>(listed);
+      const auto [least, most] = std::minmax_element(of.begin(), end);
+      return listed == 0 ? std::pair(0, 0) : std::pair(*least, *most);
+    };
     return {.plane = plane.data(),
             .col = col.data(),
             .row = row.data(),
+            .first_byte = first_byte.data(),
             .list_begin = list_begin.data(),
             .list_end = list_end.data(),
-            .lists = static_cast<std::int32_t>(list_end.size())};
+            .lists = static_cast<std::int32_t>(list_end.size()),
+            .least_col = range(col).first,
+            .most_col = range(col).second,
+            .least_row = range(row).first,
+            .most_row = range(row).second};
   }
   template <class Kernel>
   [[nodiscard]] Bounds run(const Kernel& kernel, int threshold) const {
-    Bounds bounds{.sums = std::vector<std::uint16_t>(allowed.size()),
+    Bounds bounds{.sums = std::vector<std::uint16_t>(allowed.size() * tile_blocks),
                   .largest = std::vector<std::uint16_t>(static_cast<std::size_t>(tiles))};
     Integers scratch(plane.size() + 1);
     kernel(planes(), points(), tile_col, tile_row, tiles, threshold, allowed.data(), scratch.data(),
@@ -116,7 +139,7 @@ TEST(BoundTileByHand, WeighsPointsByTheirLists) {
   const Integers row{0, 1, 0, 1};
   const Integers list_begin{0, 2};
   const Integers list_end{2, 4};
-  const std::vector<std::uint16_t> allowed(tile_blocks, 0xFFFF);
+  const std::uint64_t allowed = ~std::uint64_t{0};
   std::vector<std::uint16_t> sums(tile_blocks);
   std::uint16_t largest = 0;
   kernels::scalar::bound_tiles(
@@ -124,10 +147,11 @@ TEST(BoundTileByHand, WeighsPointsByTheirLists) {
       {.plane = plane.data(),
        .col = col.data(),
        .row = row.data(),
+       .first_byte = nullptr,
        .list_begin = list_begin.data(),
        .list_end = list_end.data(),
        .lists = 2},
-      0, 0, 1, 1, allowed.data(), nullptr, sums.data(), &largest);
+      0, 0, 1, 1, &allowed, nullptr, sums.data(), &largest);
   // Block (col 3, row 1): b at (1, 0), weight 2; c at (2, 1), weight 3; a at (0, 0), weight 1.
   EXPECT_EQ(sums[static_cast<std::size_t>(kernels::tile_lane(3, 1))],
             level(3, 1) + 2 * level(4, 1) + 3 * level(5, 2));
@@ -143,8 +167,8 @@ class BoundTile : public ::testing::TestWithParam<std::string> {
 TEST_P(BoundTile, EqualsItsTwin) {
   for (const int points : testing::point_counts)
     for (const int heaviest : {1, 2, 3, 7, 8, 20})
-      for (int repeat = 0; repeat < 4; ++repeat) {
-        const TileRun run(random_, points, heaviest);
+      for (int repeat = 0; repeat < 6; ++repeat) {
+        const TileRun run(random_, points, heaviest, repeat >= 4);
         EXPECT_EQ(run.bound(0), run.twin())
             << points << " points up to weight " << heaviest << ", " << run.tiles << " tiles";
       }
@@ -177,8 +201,8 @@ TEST_P(BoundTile, GivesUpOnlyTilesThatDoNotReachTheThreshold) {
 TEST_P(BoundTile, SaturatesAtSixteenBits) {
   TileRun run(random_, 300, 31);
   std::fill(run.column_of_4.begin(), run.column_of_4.end(), 0x1F1F1F1FU);
-  std::fill(run.allowed.begin(), run.allowed.end(), std::uint16_t{0xFFFF});
-  const Bounds full{.sums = std::vector<std::uint16_t>(run.allowed.size(), 65535),
+  std::fill(run.allowed.begin(), run.allowed.end(), ~std::uint64_t{0});
+  const Bounds full{.sums = std::vector<std::uint16_t>(run.allowed.size() * tile_blocks, 65535),
                     .largest = std::vector<std::uint16_t>(static_cast<std::size_t>(run.tiles), 65535)};
   EXPECT_EQ(run.bound(65535), full);
   EXPECT_EQ(run.twin(), full);
@@ -190,6 +214,18 @@ TEST_P(BoundTile, EqualsItsTwinAroundSaturation) {
     const TileRun run(random_, points, 255);
     EXPECT_EQ(run.bound(0), run.twin()) << points;
   }
+}
+
+TEST_P(BoundTile, LanesAtLeastEqualTheirTwin) {
+  std::vector<std::uint16_t> sums(tile_blocks);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    for (std::uint16_t& sum : sums) sum = static_cast<std::uint16_t>(random_.between(0, 3) * 21845);
+    for (const int least : {0, 1, 21845, 43690, 43691, 65535})
+      ASSERT_EQ(kernels::lanes_at_least(sums.data(), least),
+                kernels::scalar::lanes_at_least(sums.data(), least))
+          << least;
+  }
+  EXPECT_EQ(kernels::scalar::lanes_at_least(sums.data(), 0), ~std::uint64_t{0});
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, BoundTile, ::testing::ValuesIn(testing::instruction_sets()),

@@ -104,24 +104,6 @@ TEST_P(ScoreBlock, GivesUpOnlyWhereNoPoseReachesTheThreshold) {
   }
 }
 
-TEST_P(ScoreBlock, BoundIsTheTwinsOrBelowTheThreshold) {
-  for (const int points : testing::point_counts) {
-    const Block block(random_, points);
-    const Integers index = block.indices();
-    const auto bound = [&](std::int32_t threshold) {
-      return kernels::bound_block(block.tables.planes(), index.data(), index.size(), threshold);
-    };
-    const std::int32_t full =
-        kernels::scalar::bound_block(block.tables.planes(), index.data(), index.size(), 0);
-    const Scores scores = block.scores();
-    EXPECT_GE(full, *std::max_element(scores.begin(), scores.end())) << points;
-    EXPECT_EQ(bound(0), full) << points;
-    EXPECT_EQ(bound(full), full) << points;
-    for (const std::int32_t threshold : {full + 1, 2 * full + 1, 1 << 30})
-      EXPECT_LT(bound(threshold), threshold) << points;
-  }
-}
-
 TEST_P(ScoreBlock, SumsBeyondSixteenBits) {
   const std::vector<std::uint8_t> field(100, 255);
   const internal::WindowTables tables = internal::make_window_tables(field, 10, 10);
@@ -130,7 +112,6 @@ TEST_P(ScoreBlock, SumsBeyondSixteenBits) {
   kernels::window_indices(tables.planes(), 0, 0, zero.data(), zero.data(), zero.size(), index.data());
   Scores scores{}, expected{};
   expected.fill(255'000);
-  EXPECT_EQ(kernels::bound_block(tables.planes(), index.data(), index.size(), 0), 255'000);
   ASSERT_TRUE(kernels::score_block(tables.planes(), index.data(), index.size(), 255'000, scores.data()));
   EXPECT_EQ(scores, expected);
 }

@@ -1,0 +1,46 @@
+// Bounds of a tile of neighbouring blocks at one heading: the maximum of the very window that each point can
+// fall into.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/bound_tile.hpp"
+#include "kernels/score_block.hpp"
+
+namespace landfall::kernels {
+
+// Maxima of all windows of 8 x 8 cells, by phase: [row % 8][col % 8][row / 8][col / 8] of a map padded by a
+// tile on every side, so that the windows of neighbouring blocks are neighbours.
+struct WindowMaxima {
+  const std::uint8_t* window_max = nullptr;
+  std::int32_t stride = 0;      // elements a row of one phase
+  std::int32_t phase_size = 0;  // elements of one phase
+  std::int32_t width = 0;       // of the field, cells
+  std::int32_t height = 0;
+
+  static constexpr std::int32_t pad_cols = tile_cols * block_cells;
+  static constexpr std::int32_t pad_rows = tile_rows * block_cells;
+
+  // The element of the window that begins at a cell of the padded map, counted from its corner.
+  [[nodiscard]] std::int32_t index(std::int32_t padded_col, std::int32_t padded_row) const {
+    constexpr std::int32_t mask = block_cells - 1;
+    const std::int32_t phase = (padded_row & mask) * block_cells + (padded_col & mask);
+    return phase * phase_size + padded_row / block_cells * stride + padded_col / block_cells;
+  }
+};
+
+// bounds[row * tile_cols + col]: the sum over all points of the windows' maxima, for the block that begins at
+// cell (first_col + 8 * col, first_row + 8 * row). False, bounds undefined, once no block whose `counted` is
+// all ones (the others' are 0) can reach `threshold`; it looks after every 32 points.
+bool bound_windows(const WindowMaxima& maxima, int first_col, int first_row, const std::int32_t* point_col,
+                   const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
+                   const std::uint16_t* counted, std::int32_t* bounds);
+
+namespace scalar {
+bool bound_windows(const WindowMaxima& maxima, int first_col, int first_row, const std::int32_t* point_col,
+                   const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
+                   const std::uint16_t* counted, std::int32_t* bounds);
+}
+
+}  // namespace landfall::kernels
