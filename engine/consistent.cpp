@@ -26,7 +26,7 @@ std::vector<int> consistent(std::span<const SearchResult> results, std::span<con
   std::vector<int> choice(results.size(), -1);
   if (answered.empty()) return choice;
 
-  const SequenceModel model(results, options);
+  const SequenceModel model(results, T_odom_robot, options);
   std::vector<std::vector<int>> came_from;
   std::vector<double> log_posterior;
   for (std::size_t a = 0; a < answered.size(); ++a) {

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "engine/evidence.hpp"
+#include "engine/hold_hypothesis.hpp"
 #include "engine/rank.hpp"
 #include "engine/sequence_model.hpp"
 #include "landfall/consistent.hpp"
@@ -72,8 +73,7 @@ class Follower {
         scans_(scans),
         results_(results),
         search_options_(search_options),
-        options_(options),
-        model_(results, options) {}
+        model_(results, odometry_of(scans), options) {}
 
   void pass(std::span<const std::size_t> order) {
     std::vector<double> log_posterior;
@@ -100,7 +100,7 @@ class Follower {
     std::vector<Expected> expected;
     for (const std::size_t h : probable(log_posterior)) {
       const Expected one{.T_map_robot = before[h].T_map_robot * T_before_here,
-                         .sigma = transition_sigma(options_.odometry, T_before_here),
+                         .sigma = model_.transition_sigma(T_before_here),
                          .map_index = before[h].map_index};
       const auto& known = results_[here].hypotheses;
       const bool listed = std::any_of(known.begin(), known.end(), [&](const Hypothesis& other) {
@@ -120,12 +120,19 @@ class Follower {
   void ask(const std::vector<Expected>& expected, std::size_t here) {
     for (std::size_t m = 0; m < maps_.size(); ++m) {
       std::vector<PosePrior> priors;
-      for (const Expected& one : expected)
-        if (one.map_index == static_cast<int>(m)) priors.push_back({one.prior()});
+      std::vector<Hypothesis> held;
+      for (const Expected& one : expected) {
+        if (one.map_index != static_cast<int>(m)) continue;
+        priors.push_back({one.prior()});
+        if (const auto hypothesis =
+                hold_hypothesis(maps_[m], scans_[here], one.T_map_robot, one.sigma, search_options_))
+          held.push_back(*hypothesis);
+      }
       if (priors.empty()) continue;
       const std::vector<Scan> copies(priors.size(), scans_[here]);
       for (const SearchResult& answer : search(maps_.subspan(m, 1), priors, copies, search_options_))
         for (const Hypothesis& one : answer.hypotheses) add(results_[here], one, static_cast<int>(m));
+      for (const Hypothesis& one : held) add(results_[here], one, static_cast<int>(m));
     }
   }
 
@@ -133,7 +140,6 @@ class Follower {
   std::span<const Scan> scans_;
   std::vector<SearchResult>& results_;
   const SearchOptions& search_options_;
-  const ConsistentOptions& options_;
   SequenceModel model_;
 };
 

@@ -25,7 +25,7 @@ class Polisher {
         results_(results),
         choice_(choice),
         options_(options),
-        model_(results, options) {}
+        model_(results, odometry_of(scans), options) {}
 
   // Where a scan that has a choice fits best among its neighbours; none: it stays.
   [[nodiscard]] std::optional<Pose2> T_map_polished(std::size_t here) const {

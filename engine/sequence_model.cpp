@@ -9,12 +9,13 @@
 namespace landfall::internal {
 namespace {
 
-// Less probable hypotheses are not told apart by their own probability: about as often as this, the map has
-// changed where the robot is, and a scan is sure of another place.
+// About as often as this, the map has changed where the robot is, and a scan is sure of another place. What
+// less probable hypotheses are told apart by is then worth little: of their nats, a part.
 constexpr double least_probability = 0.05;
+constexpr double least_slope = 0.1;
 
 // A jump lands anywhere in the box around all hypotheses, at any heading and on any map.
-double log_jump_density(std::span<const SearchResult> results, double jump_probability) {
+double log_uniform_density(std::span<const SearchResult> results) {
   double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
   int last_map = 0;
   for (const SearchResult& result : results) {
@@ -27,16 +28,10 @@ double log_jump_density(std::span<const SearchResult> results, double jump_proba
     }
   }
   const double area_m2 = std::max(1.0, x1 - x0) * std::max(1.0, y1 - y0) * (last_map + 1);
-  return std::log(jump_probability) - std::log(area_m2 * 2.0 * std::numbers::pi);
+  return -std::log(area_m2 * 2.0 * std::numbers::pi);
 }
 
 }  // namespace
-
-OdometrySigma transition_sigma(const OdometryNoise& noise, const Pose2& T_before_after) {
-  const OdometrySigma sigma = odometry_sigma(noise, T_before_after);
-  return {.translation_m = std::hypot(sigma.translation_m, pose_sigma_m),
-          .rotation_rad = std::hypot(sigma.rotation_rad, pose_sigma_rad)};
-}
 
 void check_sequence(const std::string& function, std::span<const PreparedMap> maps,
                     std::span<const Scan> scans, std::span<const SearchResult> results) {
@@ -55,23 +50,38 @@ void check_sequence(const std::string& function, std::span<const PreparedMap> ma
   }
 }
 
-SequenceModel::SequenceModel(std::span<const SearchResult> results, const ConsistentOptions& options)
-    : noise_(options.odometry), log_jump_(log_jump_density(results, options.jump_probability)) {}
+std::vector<Pose2> odometry_of(std::span<const Scan> scans) {
+  std::vector<Pose2> T_odom_robot;
+  for (const Scan& scan : scans) T_odom_robot.push_back(*scan.T_odom_robot);
+  return T_odom_robot;
+}
+
+SequenceModel::SequenceModel(std::span<const SearchResult> results, std::span<const Pose2> T_odom_robot,
+                             const ConsistentOptions& options)
+    : noise_(options.odometry) {
+  const double log_uniform = log_uniform_density(results);
+  log_jump_ = std::log(options.jump_probability) + log_uniform;
+  quality_ = judge_odometry(results, T_odom_robot, noise_, std::exp(log_uniform));
+}
 
 double SequenceModel::log_emission(const Hypothesis& hypothesis) {
-  return std::log(std::max(hypothesis.probability, least_probability));
+  const double log_probability = std::log(std::max(hypothesis.probability, 1e-300));
+  const double log_least = std::log(least_probability);
+  if (log_probability > log_least) return log_probability;
+  return log_least + least_slope * (log_probability - log_least);
 }
 
 double SequenceModel::log_transition(const Hypothesis& before, const Hypothesis& after,
                                      const Pose2& T_before_after) const {
   if (before.map_index != after.map_index) return log_jump_;
-  const OdometrySigma sigma = transition_sigma(noise_, T_before_after);
-  const Pose2 T_moved = inverse(before.T_map_robot) * after.T_map_robot;
-  const double off = translation_distance(T_moved, T_before_after) / sigma.translation_m;
-  const double turned = angle_distance(T_moved.theta_rad, T_before_after.theta_rad) / sigma.rotation_rad;
-  const double log_normaliser = 1.5 * std::log(2.0 * std::numbers::pi) + 2.0 * std::log(sigma.translation_m) +
-                                std::log(sigma.rotation_rad);
-  return std::max(log_jump_, -0.5 * (off * off + turned * turned) - log_normaliser);
+  const StepOff off = step_off(before.T_map_robot, after.T_map_robot, T_before_after);
+  return std::max(log_jump_, log_step_density(noise_, quality_, T_before_after, off));
+}
+
+OdometrySigma SequenceModel::transition_sigma(const Pose2& T_before_after) const {
+  const OdometrySigma sigma = odometry_sigma(noise_, T_before_after);
+  return {.translation_m = std::hypot(quality_.translation_factor * sigma.translation_m, pose_sigma_m),
+          .rotation_rad = std::hypot(quality_.rotation_factor * sigma.rotation_rad, pose_sigma_rad)};
 }
 
 SequenceModel::Extended SequenceModel::extend(std::span<const Hypothesis> before,

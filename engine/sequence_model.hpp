@@ -5,18 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "engine/odometry.hpp"
+#include "engine/odometry_quality.hpp"
 #include "landfall/consistent.hpp"
 
 namespace landfall::internal {
 
 class SequenceModel {
  public:
-  SequenceModel(std::span<const SearchResult> results, const ConsistentOptions& options);
+  // T_odom_robot[i] is odometry under results[i], from which it is learnt how good odometry is.
+  SequenceModel(std::span<const SearchResult> results, std::span<const Pose2> T_odom_robot,
+                const ConsistentOptions& options);
 
   // Log densities, but for a constant.
   [[nodiscard]] static double log_emission(const Hypothesis& hypothesis);
-  // Odometry's Gaussian, or a jump to anywhere; on another map always a jump.
+  // Odometry's density, or a jump to anywhere; on another map always a jump.
   [[nodiscard]] double log_transition(const Hypothesis& before, const Hypothesis& after,
                                       const Pose2& T_before_after) const;
   // Odometry does not explain the second after the first.
@@ -24,6 +26,8 @@ class SequenceModel {
                              const Pose2& T_before_after) const {
     return log_transition(before, after, T_before_after) <= log_jump_;
   }
+  // A hypothesis's own uncertainty and odometry's together, as good as it proved.
+  [[nodiscard]] OdometrySigma transition_sigma(const Pose2& T_before_after) const;
   // One step of Viterbi: log posteriors of the hypotheses of `after` from those of `before`.
   struct Extended {
     std::vector<double> log_posterior;
@@ -35,6 +39,7 @@ class SequenceModel {
  private:
   OdometryNoise noise_;
   double log_jump_;
+  OdometryQuality quality_;
 };
 
 // Throws Error{invalid_argument}, under the function's name: lengths that differ, a scan without odometry, a
@@ -42,7 +47,7 @@ class SequenceModel {
 void check_sequence(const std::string& function, std::span<const PreparedMap> maps,
                     std::span<const Scan> scans, std::span<const SearchResult> results);
 
-// A hypothesis's own uncertainty and odometry's together.
-OdometrySigma transition_sigma(const OdometryNoise& noise, const Pose2& T_before_after);
+// T_odom_robot of each scan; every one has it.
+std::vector<Pose2> odometry_of(std::span<const Scan> scans);
 
 }  // namespace landfall::internal

@@ -42,6 +42,14 @@ SettleProblem::SettleProblem(const PreparedState& map, const Scan& scan)
   const double per_cell = resolution_m / std::max(least_sigma_m, parts.noise.translation_m);
   const double per_rad = 1.0 / std::max(least_sigma_rad, parts.noise.rotation_rad);
   weight_ = Vector3d(per_cell * per_cell, per_cell * per_cell, per_rad * per_rad);
+  reference_ = static_cast<Eigen::Index>(3 * parts.reference);
+}
+
+void SettleProblem::expect_reference(const Pose2& T_map_reference, double sigma_m, double sigma_rad) {
+  expected_ = in_cells(inverse(map_.grid().T_map_grid) * T_map_reference);
+  const double per_cell = resolution_m() / std::max(least_sigma_m, sigma_m);
+  const double per_rad = 1.0 / std::max(least_sigma_rad, sigma_rad);
+  expected_weight_ = scans_ * Vector3d(per_cell * per_cell, per_cell * per_cell, per_rad * per_rad);
 }
 
 SettleProblem::Linear SettleProblem::linearise(const VectorXd& poses) const {
@@ -62,7 +70,16 @@ SettleProblem::Linear SettleProblem::linearise(const VectorXd& poses) const {
   sum.gradient *= nats_per_point;
   sum.cost = -scans_ * log_evidence(share, count_);
   for (std::size_t i = 0; i < steps_.size(); ++i) hold(i, poses, sum);
+  hold_reference(poses, sum);
   return sum;
+}
+
+void SettleProblem::hold_reference(const VectorXd& poses, Linear& sum) const {
+  Vector3d off = poses.segment<3>(reference_) - expected_;
+  off[2] = wrap_angle(off[2]);
+  sum.cost += 0.5 * off.dot(expected_weight_.cwiseProduct(off));
+  sum.hessian.block<3, 3>(reference_, reference_) += expected_weight_.asDiagonal();
+  sum.gradient.segment<3>(reference_) -= expected_weight_.cwiseProduct(off);
 }
 
 void SettleProblem::hold(std::size_t i, const VectorXd& poses, Linear& sum) const {

@@ -19,6 +19,10 @@ class SettleProblem {
   // scan.parts must be there; map and scan outlive this.
   SettleProblem(const PreparedState& map, const Scan& scan);
 
+  // Expects the reference at a pose, with one sigma of an error: beside the evidence of the whole composite,
+  // which is counted once for that and not once for every scan.
+  void expect_reference(const Pose2& T_map_reference, double sigma_m, double sigma_rad);
+
   struct Linear {
     Eigen::MatrixXd hessian;
     Eigen::VectorXd gradient;  // downhill
@@ -42,6 +46,8 @@ class SettleProblem {
 
  private:
   [[nodiscard]] Eigen::Vector3d in_cells(const Pose2& pose) const;
+  // The reference where it is expected.
+  void hold_reference(const Eigen::VectorXd& poses, Linear& sum) const;
   // Part i + 1 beside part i.
   void hold(std::size_t i, const Eigen::VectorXd& poses, Linear& sum) const;
 
@@ -50,6 +56,9 @@ class SettleProblem {
   std::vector<EndPoints> points_;
   std::vector<Eigen::Vector3d> steps_;
   Eigen::Vector3d weight_;
+  Eigen::Index reference_ = 0;
+  Eigen::Vector3d expected_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d expected_weight_ = Eigen::Vector3d::Zero();  // none expected
   std::size_t count_ = 0;
   // Evidence grows with the fourth root of the points, since what is off in a map is off for all of them. But
   // where a scan stands among the others, each says by itself.

@@ -102,6 +102,38 @@ TEST(Consistent, EqualsTryingAllSequences) {
   }
 }
 
+TEST(Consistent, OdometryThatProvesGoodDecidesMore) {
+  // Off odometry by 0.25 m, which the stated noise would let pass.
+  for (const bool odometry_is_good : {false, true}) {
+    internal::CounterRng random(2);
+    std::vector<SearchResult> results;
+    std::vector<Pose2> T_odom_robot;
+    for (int i = 0; i < 20; ++i) {
+      const Pose2 pose{1.0 * i, 0.0, 0.0};
+      const double off_m = odometry_is_good || i == 10 ? 0.0 : 0.6 * (random.uniform() - 0.5);
+      results.push_back(result_of({at(Pose2{pose.x_m + off_m, 0.0, 0.0}, 0.97)}));
+      T_odom_robot.push_back(in_odometry(pose));
+    }
+    results[10] = result_of({at({10.25, 0.0, 0.0}, 0.9), at({10.0, 0.0, 0.0}, 0.05)});
+    results[9] = result_of({at({9.0, 0.0, 0.0}, 0.97)});
+    results[11] = result_of({at({11.0, 0.0, 0.0}, 0.97)});
+    EXPECT_EQ(consistent(results, T_odom_robot)[10], odometry_is_good ? 1 : 0);
+  }
+}
+
+TEST(Consistent, HowImprobableAHypothesisIsCounts) {
+  // Twin lanes: in the first, two scans are nowhere near what they see; the second is never the likeliest.
+  std::vector<SearchResult> results;
+  std::vector<Pose2> T_odom_robot;
+  for (int i = 0; i < 5; ++i) {
+    const double first = i == 1 || i == 3 ? 1e-20 : 0.9;
+    const double second = i == 1 || i == 3 ? 0.9 : 0.06;
+    results.push_back(result_of({at({1.0 * i, 0.0, 0.0}, first), at({1.0 * i, 30.0, 0.0}, second)}));
+    T_odom_robot.push_back({1.0 * i, 0.0, 0.0});
+  }
+  EXPECT_EQ(consistent(results, T_odom_robot), (std::vector<int>(5, 1)));
+}
+
 TEST(Consistent, RefusesWhatDoesNotFit) {
   EXPECT_THROW(consistent(std::vector<SearchResult>(2), std::vector<Pose2>(3)), Error);
   for (const double probability : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()})

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "engine/hold_hypothesis.hpp"
 #include "landfall/consistent.hpp"
 #include "landfall/error.hpp"
 #include "rooms.hpp"
@@ -84,6 +85,27 @@ TEST_F(Follow, ScansWithoutEchoesAndPlacesOffTheMapAreLeftAlone) {
   std::vector<SearchResult> followed;
   ASSERT_NO_THROW(followed = follow(std::span(&map, 1), scans, results));
   EXPECT_TRUE(followed[1].hypotheses.empty());
+}
+
+// A corridor without ends in sight: scans say where across it the robot is, odometry where along.
+TEST(HoldHypothesis, OdometryPlacesAlongACorridor) {
+  GridMap corridor = testing::empty_map(400, 40, 0.1);
+  testing::draw_walls(corridor, {0, 10}, {399, 30});
+  const PreparedMap map{corridor};
+  const Scan one = testing::look(map, testing::full_circle(60, 4.0), {20.0, 2.0, 0.1});
+  const std::vector<Scan> two(2, one);
+  const Scan composite = merge(two, std::vector<Pose2>{{-0.3, 0.0, 0.0}, {}}, 1, aligned_noise);
+  for (const Scan& scan : {one, composite}) {
+    SCOPED_TRACE(scan.parts ? "composite" : "single");
+    const Pose2 T_map_expected{21.37, 2.11, 0.08};
+    const auto held = internal::hold_hypothesis(map, scan, T_map_expected, {0.1, 0.03}, {});
+    ASSERT_TRUE(held.has_value());
+    EXPECT_NEAR(held->T_map_robot.x_m, T_map_expected.x_m, 0.05);
+    EXPECT_NEAR(held->T_map_robot.y_m, 2.0, 0.03);
+    EXPECT_GT(held->score, 0);
+    EXPECT_GT(held->explained, 0.95);
+  }
+  EXPECT_FALSE(internal::hold_hypothesis(map, one, {20.0, 500.0, 0.0}, {0.1, 0.03}, {}).has_value());
 }
 
 TEST_F(Follow, RefusesWhatDoesNotFit) {

@@ -10,6 +10,8 @@
 namespace landfall {
 
 struct ConsistentOptions {
+  // As stated; where the hypotheses of neighbours agree with odometry better or worse, it is taken to be as
+  // good as they say, but for a slip now and then.
   OdometryNoise odometry;
   double jump_probability = 1e-6;  // that odometry says nothing between two neighbours (kidnapped)
 };
@@ -21,8 +23,9 @@ std::vector<int> consistent(std::span<const SearchResult> results, std::span<con
                             const ConsistentOptions& options = {});
 
 // The results with more hypotheses: where a neighbour's probable ones and odometry place the robot, and none
-// of the scan's own is near, the scan is asked again there, along the log and back. A scan that fits many
-// places then lists the one that its neighbours know. Verdicts stay; what is added comes last.
+// of the scan's own is near, the scan is asked again there, along the log and back: for what fits best within
+// odometry's uncertainty, and for where map and odometry agree best. A scan that fits many places then lists
+// the one that its neighbours know. Verdicts stay; what is added comes last.
 // results[i] answers scans[i]. Throws Error{invalid_argument} where the lengths differ, a scan has no
 // T_odom_robot, or a hypothesis is on a map that is not given.
 std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<const Scan> scans,
