@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -97,7 +97,7 @@ def measure(building: Building, others: Sequence[Building], every: int, say: Cal
     say("single scans")
     answers, numbers["single"] = single_scans(building, every)
     say("the log as a whole")
-    numbers["consistent"] = consistent(building, answers if every == 1 else None)
+    T_map_tied, numbers["consistent"] = consistent(building, answers if every == 1 else None)
     say("one at a time")
     numbers["latency"] = latency(building, 100 // min(every, 5))
     numbers["tracking"] = tracking(building, 100 // min(every, 5))
@@ -106,7 +106,7 @@ def measure(building: Building, others: Sequence[Building], every: int, say: Cal
     say("windows")
     numbers["windows"] = windows(building, every)
     say("relative poses")
-    numbers["align"] = aligned_steps(building, every)
+    numbers["align"] = aligned_steps(building, every, T_map_tied)
     return numbers
 
 
@@ -141,8 +141,8 @@ def single_scans(building: Building, every: int) -> tuple[Answers, dict]:
     return answers, numbers
 
 
-def consistent(building: Building, answers: Answers | None) -> dict:
-    """Of all queries, or where only some were asked, of a tenth of the log without gaps."""
+def consistent(building: Building, answers: Answers | None) -> tuple[dict[int, landfall.Pose2 | None], dict]:
+    """Of all queries, or where only some were asked, of a tenth of the log without gaps; the poses too."""
     if answers is None:
         count = len(building.scans) // 10
         middle = len(building.scans) // 2
@@ -151,7 +151,8 @@ def consistent(building: Building, answers: Answers | None) -> dict:
     estimates = [
         Estimate(stamp_s, pose) for stamp_s, pose in zip(answers.stamps_s, answers.poses, strict=True)
     ]
-    return building.judge(estimates, building.wrong_truth)
+    T_map_tied = {query.last: pose for query, pose in zip(answers.queries, answers.poses, strict=True)}
+    return T_map_tied, building.judge(estimates, building.wrong_truth)
 
 
 def latency(building: Building, count: int) -> dict:
@@ -189,38 +190,55 @@ def windows(building: Building, every: int) -> dict:
     return building.judge(first_hypotheses(answers), building.wrong_truth)
 
 
-def aligned_steps(building: Building, every: int) -> dict:
-    """align()'s relative poses of neighbouring scans against the truth's."""
+def aligned_steps(building: Building, every: int, T_map_tied: Mapping[int, landfall.Pose2 | None]) -> dict:
+    """align()'s relative poses of neighbouring scans against the truth's; either against those of the log as
+    a whole, which knows the map."""
     queries = scan_windows(len(building.scans), WINDOW_SCANS, disjoint=False, every=every)
     with ThreadPoolExecutor() as pool:  # align releases the GIL
         poses = list(
             pool.map(lambda q: landfall.align(building.scans[q.first : q.last + 1], threads=1), queries)
         )
-    errors = [
-        _step_error(T_window_robot, [pose for _, pose in building.truth[query.first : query.last + 1]], k)
-        for query, T_window_robot in zip(queries, poses, strict=True)
-        for k in range(WINDOW_SCANS - 1)
-        if not {query.first + k, query.first + k + 1} & set(building.wrong_truth)
-    ]
-    right = sum(metres <= STEP_M and radians <= STEP_RAD for metres, radians in errors)
+    errors, aligned_as_tied, true_as_tied = [], [], []
+    for query, T_window_robot in zip(queries, poses, strict=True):
+        for k in range(WINDOW_SCANS - 1):
+            before, after = query.first + k, query.first + k + 1
+            if {before, after} & set(building.wrong_truth):
+                continue
+            step = T_window_robot[k].inverse() * T_window_robot[k + 1]
+            true_step = building.truth[before][1].inverse() * building.truth[after][1]
+            errors.append(_step_error(step, true_step))
+            T_map_before, T_map_after = T_map_tied.get(before), T_map_tied.get(after)
+            if T_map_before is None or T_map_after is None:
+                continue
+            tied_step = T_map_before.inverse() * T_map_after
+            aligned_as_tied.append(_is_small(_step_error(step, tied_step)))
+            true_as_tied.append(_is_small(_step_error(true_step, tied_step)))
+    right = sum(map(_is_small, errors))
     return {
         "steps": len(errors),
         "right": right,
         "share": right / len(errors),
+        "as_consistent": _mean(aligned_as_tied),
+        "truth_as_consistent": _mean(true_as_tied),
         "median_m": float(np.median([metres for metres, _ in errors])),
         "median_deg": math.degrees(np.median([radians for _, radians in errors])),
     }
 
 
-def _step_error(
-    T_window_robot: Sequence[landfall.Pose2], T_map_robot: Sequence[landfall.Pose2], k: int
-) -> tuple[float, float]:
-    step = T_window_robot[k].inverse() * T_window_robot[k + 1]
-    true_step = T_map_robot[k].inverse() * T_map_robot[k + 1]
+def _step_error(step: landfall.Pose2, true_step: landfall.Pose2) -> tuple[float, float]:
     return (
         landfall.translation_distance(step, true_step),
         landfall.angle_distance(step.theta_rad, true_step.theta_rad),
     )
+
+
+def _is_small(error: tuple[float, float]) -> bool:
+    metres, radians = error
+    return metres <= STEP_M and radians <= STEP_RAD
+
+
+def _mean(flags: Sequence[bool]) -> float | None:
+    return sum(flags) / len(flags) if flags else None
 
 
 def _evenly(items: Sequence, wanted: int) -> list:

@@ -73,6 +73,8 @@ BUILDINGS = (
     Target("windows of five: right", "%", ("windows", "success_rate"), at_least=99.5),
     Target("of these found, right", "%", ("windows", "verdicts", "found_that_are_right")),
     Target("align: steps within 10 cm, 1.5 deg", "%", ("align", "share"), at_least=95.0),
+    Target("align: steps as --consistent's", "%", ("align", "as_consistent")),
+    Target("truth: steps as --consistent's", "%", ("align", "truth_as_consistent")),
     Target("--consistent: right", "%", ("consistent", "success_rate"), at_least=99.5),
     Target("equal to exhaustive search", "%", ("exhaustive", "share"), 0, at_least=100.0),
     Target("search_ms: median", "ms", ("latency", "median_ms"), 1, at_most=MEDIAN_MS),
