@@ -72,6 +72,7 @@ Modes find_modes(const Query& query, const std::vector<Candidate>& candidates, s
                              .log_prior = log_prior,
                              .share = share,
                              .log_mass = 0.0,
+                             .log_readings = 0.0,
                              .T_map_mean = {},
                              .map_index = 0,
                              .verification = {},
@@ -103,9 +104,18 @@ struct Ranked {
   double log_mass;  // prior x likelihood
 };
 
-double log_mass(const Modes& map, const Mode& mode) {
+// log_readings: of the mode that they speak for most, so that what was not judged weighs what it did.
+double log_mass(const Modes& map, const Mode& mode, double log_readings) {
   if (map.by_ranges) return mode.log_mass;
-  return mode.log_prior + log_evidence(mode.share + share_of_rays(mode.verification), map.points);
+  return mode.log_prior + log_evidence(mode.share + share_of_rays(mode.verification), map.points) +
+         (mode.log_readings - log_readings);
+}
+
+double most_log_readings(const std::vector<Modes>& maps) {
+  double most = nothing;
+  for (const Modes& map : maps)
+    for (const Mode& mode : map.modes) most = std::max(most, mode.log_readings);
+  return most;
 }
 
 // What weighs beside the best pose that it is none.
@@ -120,10 +130,11 @@ std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
   for (const Modes& map : maps)
     for (const Mode& mode : map.modes)
       any_explains = any_explains || mode.hypothesis.explained >= least_explained;
+  const double log_readings = most_log_readings(maps);
   std::vector<Ranked> all;
   for (const Modes& map : maps) {
     for (const Mode& mode : map.modes) {
-      double weight = log_mass(map, mode);
+      double weight = log_mass(map, mode, log_readings);
       // A pose that would be lost by itself is no rival of one that explains the scan.
       if (any_explains && !map.by_ranges && mode.hypothesis.explained < least_explained)
         weight -= unexplained_nats;

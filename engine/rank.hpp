@@ -19,9 +19,10 @@ struct Mode {
   Candidate best;
   std::optional<FreeCandidate> free;  // the method's own pose, where it is not the lattice's
   double log_prior = 0.0;
-  double share = 0.0;     // of the best imaginable score, at the refined pose
-  double log_mass = 0.0;  // prior x likelihood, of modes by ranges
-  Pose2 T_map_mean;       // over that mass
+  double share = 0.0;         // of the best imaginable score, at the refined pose
+  double log_mass = 0.0;      // prior x likelihood, of modes by ranges
+  double log_readings = 0.0;  // of readings that the scan was condensed from (judge_by_readings.hpp)
+  Pose2 T_map_mean;           // over that mass
   int map_index = 0;
   Verification verification;
   std::vector<std::vector<Pose2>> ways_to_settle;  // of a composite whose relative poses may be off

@@ -42,6 +42,12 @@ void validate_parts(const ScanParts& parts, std::size_t beams) {
   check_noise(parts.noise);
 }
 
+void validate_measured(const Scan& measured, bool beside_parts) {
+  if (beside_parts || measured.parts) fail("scan: measured and parts, expected one of them");
+  if (measured.measured) fail("scan: measured is a condensed scan, expected the readings");
+  validate(measured);
+}
+
 int count_readings(const Scan& scan, bool echoes_alone) {
   int count = 0;
   const std::size_t beams = std::min(scan.ranges_m.size(), scan.sensor ? scan.sensor->beams.size() : 0);
@@ -94,6 +100,7 @@ void validate(const Scan& scan) {
   validate_pose(scan.T_odom_robot, "T_odom_robot");
   validate_pose(scan.T_map_robot, "T_map_robot");
   if (scan.parts) validate_parts(*scan.parts, scan.ranges_m.size());
+  if (scan.measured) validate_measured(*scan.measured, scan.parts.has_value());
 }
 
 Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/central_heading.hpp"
+#include "engine/judge_by_readings.hpp"
 #include "engine/lattice_score.hpp"
 #include "engine/methods/table.hpp"
 #include "engine/options.hpp"
@@ -135,17 +136,24 @@ void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   result.counts.rays_cast += static_cast<std::int64_t>(found.modes.size()) * result.beams_valid;
 }
 
+void judge_modes(const Query& query, Modes& found, SearchResult& result) {
+  const StageTimer timer(result.times.verify_ms);
+  judge_by_readings(query, found, result.counts);
+}
+
 Modes examine(const Query& query, const Method& method, SearchResult& result) {
   const Proposal proposal = propose(query, method, result);
   Modes modes = [&] {
     const StageTimer timer(result.times.rank_ms);
-    const auto most = static_cast<std::size_t>(std::max(query.options.max_hypotheses, least_modes));
+    const int least = query.scan.measured ? least_judged_modes : least_modes;
+    const auto most = static_cast<std::size_t>(std::max(query.options.max_hypotheses, least));
     return proposal.scores != Scores::field
                ? find_modes_by_ranges(query, proposal, most)
                : find_modes(query, proposal.candidates, most, proposal.free_candidates);
   }();
   refine_modes(query, method, modes, result);
   if (method.samples) drop_repeated(query.options, modes.modes);
+  judge_modes(query, modes, result);
   verify_modes(query, modes, result);
   return modes;
 }
@@ -155,6 +163,7 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
 bool deserves_second_look(const Query& query, const Method& method, const Modes& modes) {
   constexpr std::int64_t most_poses = 100'000'000;
   if (modes.by_ranges || method.samples) return false;  // of other scores the margin is the method's
+  if (query.scan.measured) return false;                // the margin is as wide already
   if (query.domain.poses > most_poses || query.out_of_time()) return false;
   return !modes.modes.empty() && std::none_of(modes.modes.begin(), modes.modes.end(), [](const Mode& mode) {
     return mode.hypothesis.explained >= least_explained;
@@ -192,7 +201,7 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
                 .lattice = maps[m].lattice(index),
                 .domain = maps[m].domain(index),
                 .options = options,
-                .margin = rival_margin(points.size()),
+                .margin = scan.measured ? second_margin(points.size()) : rival_margin(points.size()),
                 .threads = threads,
                 .deadline = {}};
     if (options.time_budget_s > 0.0)

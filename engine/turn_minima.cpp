@@ -95,7 +95,9 @@ Scan merge_turn_minima(std::span<const Scan> turn, const TurnMinimaOptions& opti
     if (mean_of_direction(readings, i, 0.5 * step_rad, options.equal_sigmas, mean))
       end_points.push_back(mean);
   }
-  return scan_of(end_points, turn[0]);
+  Scan scan = scan_of(end_points, turn[0]);
+  scan.measured = std::make_shared<const Scan>(merge_turn(turn));
+  return scan;
 }
 
 }  // namespace landfall

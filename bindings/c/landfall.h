@@ -207,6 +207,14 @@ LANDFALL_API landfall_status landfall_scans_merge(const landfall_scans* scans, s
                                                   const landfall_pose* T_common_robot, size_t reference,
                                                   landfall_scans* merged);
 
+/* Appends to `condensed` what can be trusted of a slow turn on the spot, as one scan: scans first .. first +
+ * count - 1, of one sensor, were taken at headings i 2 pi / count of scan `first`'s robot frame. Sonars read
+ * too long where sound meets a wall at a slant; kept are the local minima along the turn, over all beams
+ * together. landfall_search proposes poses by these and judges them by all the readings, which the scan
+ * keeps (logs do not). `condensed` may be `scans` itself. */
+LANDFALL_API landfall_status landfall_scans_merge_turn_minima(const landfall_scans* scans, size_t first,
+                                                              size_t count, landfall_scans* condensed);
+
 LANDFALL_API void landfall_scans_free(landfall_scans* scans);
 
 /* ---- Simulation

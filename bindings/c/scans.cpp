@@ -3,6 +3,7 @@
 
 #include "bindings/c/handles.hpp"
 #include "landfall/align.hpp"
+#include "landfall/extended_robot.hpp"
 #include "landfall/io.hpp"
 
 namespace {
@@ -113,6 +114,14 @@ landfall_status landfall_scans_merge(const landfall_scans* scans, size_t first, 
     const auto poses = T_common_robot == nullptr ? odometry_of(window.scans)
                                                  : from_c(array(T_common_robot, count, "T_common_robot"));
     list.push_back(landfall::merge(window.scans, poses, window.reference));
+  });
+}
+
+landfall_status landfall_scans_merge_turn_minima(const landfall_scans* scans, size_t first, size_t count,
+                                                 landfall_scans* condensed) {
+  return guarded(__func__, [&] {
+    auto& list = required(condensed, "condensed").scans;
+    list.push_back(landfall::merge_turn_minima(window_of(scans, first, count, first).scans));
   });
 }
 

@@ -29,12 +29,14 @@ std::vector<float> copy_ranges(const ArrayLike<float>& ranges) {
 }
 
 void init_scan(Scan* self, SensorPtr sensor, const ArrayLike<float>& ranges_m, double stamp_s,
-               std::optional<PoseArgument> T_odom_robot, std::optional<PoseArgument> T_map_robot) {
+               std::optional<PoseArgument> T_odom_robot, std::optional<PoseArgument> T_map_robot,
+               const std::optional<Scan>& measured) {
   Scan scan{.sensor = std::move(sensor),
             .ranges_m = copy_ranges(ranges_m),
             .stamp_s = stamp_s,
             .T_odom_robot = T_odom_robot,
-            .T_map_robot = T_map_robot};
+            .T_map_robot = T_map_robot,
+            .measured = measured ? std::make_shared<const Scan>(*measured) : nullptr};
   validate(scan);
   new (self) Scan(std::move(scan));
 }
@@ -133,9 +135,10 @@ void bind_sensor(nb::module_& module) {
 void bind_scan(nb::module_& module) {
   nb::class_<Scan>(module, "Scan", "What a sensor saw at one time: one range per beam.")
       .def("__init__", &init_scan, "sensor"_a, "ranges_m"_a, "stamp_s"_a = 0.0, "T_odom_robot"_a = nb::none(),
-           "T_map_robot"_a = nb::none(),
+           "T_map_robot"_a = nb::none(), "measured"_a = nb::none(),
            "ranges_m: (beams,) float32; NaN is invalid, at or above the beam's range_max_m nothing was hit.\n"
            "T_odom_robot: odometry. T_map_robot: a pose recorded in the log; search never looks at it.\n"
+           "measured: the readings that the scan was condensed from, by which search judges as well.\n"
            "Raises InvalidArgument.")
       .def_prop_ro("sensor", [](const Scan& scan) { return scan.sensor; })
       .def_prop_rw("ranges_m", &ranges_of, &assign_ranges, "(beams,) float32, a writable view without copy.")
@@ -146,6 +149,10 @@ void bind_scan(nb::module_& module) {
       .def_prop_rw(
           "T_map_robot", [](const Scan& scan) { return scan.T_map_robot; },
           [](Scan& scan, std::optional<PoseArgument> pose) { scan.T_map_robot = pose; }, nb::arg().none())
+      .def_prop_ro(
+          "measured",
+          [](const Scan& scan) { return scan.measured ? std::optional<Scan>(*scan.measured) : std::nullopt; },
+          "A copy of the readings that the scan was condensed from (merge_turn_minima), or None.")
       .def("points_robot", &points_robot,
            "(echoes, 2) float64: where the beams that hit something ended, in the robot frame.")
       .def("count_valid", &count_valid)

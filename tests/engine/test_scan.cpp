@@ -180,5 +180,22 @@ TEST(Merge, RefusesWhatDoesNotFit) {
               HasSubstr("pose 1"));
 }
 
+TEST(Measured, IsOneScanOfReadings) {
+  const auto scan_of = [](float range_m) { return Scan{.sensor = fan(1), .ranges_m = {range_m}}; };
+  Scan condensed = scan_of(1.0f);
+  condensed.measured = std::make_shared<const Scan>(scan_of(2.0f));
+  EXPECT_NO_THROW(validate(condensed));
+  Scan twice = scan_of(1.0f);
+  twice.measured = std::make_shared<const Scan>(condensed);
+  EXPECT_THAT(error_of([&] { validate(twice); }), HasSubstr("measured is a condensed scan"));
+  Scan without_sensor = scan_of(1.0f);
+  without_sensor.measured = std::make_shared<const Scan>();
+  EXPECT_THAT(error_of([&] { validate(without_sensor); }), HasSubstr("no sensor"));
+  Scan with_parts = condensed;
+  with_parts.parts = ScanParts{.beams = {1}, .T_reference_robot = {Pose2{}}};
+  EXPECT_THAT(error_of([&] { validate(with_parts); }), HasSubstr("measured and parts"));
+  EXPECT_EQ(merge(std::vector<Scan>{condensed}, std::vector<Pose2>(1), 0).measured, nullptr);
+}
+
 }  // namespace
 }  // namespace landfall

@@ -70,6 +70,14 @@ std::vector<Scan> facing(double bearing_deg, double distance_m) {
   return turn_of([=](double at_deg) { return apart_deg(at_deg, bearing_deg) <= 15.001 ? distance_m : none; });
 }
 
+TEST(TurnMinima, KeepsWhatWasMeasured) {
+  const std::vector<Scan> turn = facing(40.0, 2.0);
+  const Scan scan = merge_turn_minima(turn);
+  ASSERT_NE(scan.measured, nullptr);
+  EXPECT_EQ(scan.measured->ranges_m, merge_turn(turn).ranges_m);
+  EXPECT_EQ(*scan.measured->sensor, *merge_turn(turn).sensor);
+}
+
 TEST(TurnMinima, APlateauIsOneEndPointInItsMiddle) {
   for (const double bearing_deg : {40.0, 42.5, -142.5, 0.0, -2.5}) {  // between headings; over the seam
     SCOPED_TRACE(bearing_deg);

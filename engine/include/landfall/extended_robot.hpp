@@ -37,7 +37,8 @@ struct TurnMinimaOptions {
 //  - Elsewhere a reading is kept where none within half a turn's step of its bearing is shorter, averaged
 //    with those that noise alone sets apart from it: errors are positive, so of those that look one way the
 //    shortest is right. (Equation 14 asks one sonar's two neighbours, a whole step away.)
-// Beams that begin at the centre, a plateau's several times; a single invalid one where nothing is left.
+// Beams that begin at the centre, a plateau's several times; a single invalid one where nothing is left. The
+// scan's `measured` are all the readings (merge_turn): search judges by them what the end points propose.
 // Throws Error{invalid_argument}: no scans, a scan that does not validate, scans of different sensors,
 // equal_sigmas that are negative or not finite, a weight outside 0 to 100.
 Scan merge_turn_minima(std::span<const Scan> turn, const TurnMinimaOptions& options = {});

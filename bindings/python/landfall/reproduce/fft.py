@@ -4,13 +4,19 @@ A room of 6 x 9 m, eight sonars, a turn on the spot in 32 steps, 1 dm per pixel,
 paper's three points, and random poses in seeded rooms. Sonars meet the walls where they are, the map knows
 them by cells.
 
+`success` is of the complete method: the pose that search() with method fft ranks first. The volume's maxima,
+refined, are judged by all readings of the turn, also those that the minimum filter drops; the likelihood
+field stands for the masked map. What is left out of it, or done otherwise, goes the same way.
+`success_raw` is of the volume's maximum alone (equation 11), on the lattice, of the map blurred by the mask.
+
 The minimum filter is merge_turn_minima, over all sonars together; the paper's own, sonar by sonar, is
-reported beside it. The environment's map is blurred by the mask (equation 15), the robot's not; with both
-blurred (equation 16) about as many poses are found.
+reported beside it. The environment's map is blurred (equation 15), the robot's not, but for
+`success_raw_both_masks` (equation 16).
 """
 
 from __future__ import annotations
 
+import math
 import statistics
 import time
 from collections.abc import Callable
@@ -58,7 +64,16 @@ Filter = Callable[[list[Scan]], Scan]
 
 def by_sonar(turn: list[Scan]) -> Scan:
     """Equation 14: each sonar's local minima along the turn."""
-    return merge_turn(keep_local_minima(turn))
+    return _condensed(merge_turn(keep_local_minima(turn)), turn)
+
+
+def unfiltered(turn: list[Scan]) -> Scan:
+    """Every reading is an end point."""
+    return _condensed(merge_turn(turn), turn)
+
+
+def _condensed(scan: Scan, turn: list[Scan]) -> Scan:
+    return Scan(scan.sensor, scan.ranges_m, measured=merge_turn(turn))
 
 
 @dataclass
@@ -77,10 +92,9 @@ def run(seed: int, seeds: int, out: Path) -> dict:
         name: _case(room, Pose2(x, y, 0.0), seed + i) for i, (name, (x, y)) in enumerate(TEST_POINTS.items())
     }
     result = {"seed": seed, "seeds": seeds, "isa": active_isa(), "transforms": transform_library()}
-    estimates = {name: locate(case) for name, case in points.items()}
-    result["error_dm"] = {
-        name: translation_distance(estimates[name], case.T_map_robot) * 10.0 for name, case in points.items()
-    }
+    estimates = {name: find(case) for name, case in points.items()}
+    result["error_dm"] = {name: _error_dm(estimates[name], case) for name, case in points.items()}
+    result["error_raw_dm"] = {name: _error_dm(locate(case), case) for name, case in points.items()}
     result["paper_error_dm"] = PAPER_ERROR_DM
     cases = make_cases(seed, seeds)
     result |= _random_poses(cases)
@@ -96,16 +110,24 @@ def table(result: dict) -> list[list[str]]:
     rows = [["", "paper", "landfall"]]
     for name, paper in result["paper_error_dm"].items():
         rows.append([f"error at point {name} [dm]", f"{paper:.2f}", f"{result['error_dm'][name]:.2f}"])
+    rows += [
+        [f"the same at {name}, the volume's maximum alone", "", f"{error_dm:.2f}"]
+        for name, error_dm in result["error_raw_dm"].items()
+    ]
     within = f"within {RIGHT_M * 10:g} dm and one heading step, {result['poses']} random poses"
     rows += [
         [within, "", _percent(result["success"])],
         ["minimum filter sonar by sonar", "", _percent(result["success_paper_filter"])],
         ["without the minimum filter", "no similarity", _percent(result["success_without_filter"])],
         ["without masks", "not given", _percent(result["success_without_masks"])],
-        ["both maps masked", "", _percent(result["success_both_masks"])],
-        ["likelihood field, refined pose", "", _percent(result["success_search_refined"])],
+        ["not judged by what the filter drops", "", _percent(result["success_unjudged"])],
+        ["the volume's maximum alone, unrefined", "", _percent(result["success_raw"])],
+        ["maximum, filter sonar by sonar", "", _percent(result["success_raw_paper_filter"])],
+        ["maximum, no filter", "no similarity", _percent(result["success_raw_without_filter"])],
+        ["maximum, no masks", "not given", _percent(result["success_raw_without_masks"])],
+        ["maximum, both maps masked", "", _percent(result["success_raw_both_masks"])],
         [
-            f"map cut to its walls, {result['wrapped']['poses']} poses",
+            f"maximum, map cut to its walls, {result['wrapped']['poses']} poses",
             "",
             _percent(result["wrapped"]["success_padded"]),
         ],
@@ -145,9 +167,34 @@ def _real_rows(result: dict) -> list[list[str]]:
     return rows
 
 
+def find(case: Case, filter: Filter = merge_turn_minima, masks: int = MASKS) -> Pose2 | None:
+    """The complete method: what search() ranks first."""
+    return _search(_with_masks(case.room.map, masks), filter(case.turn))
+
+
+def _with_masks(map: PreparedMap, masks: int) -> PreparedMap:
+    """Without masks: a likelihood field that is nothing but the occupied cells."""
+    return map if masks else PreparedMap(map.grid, field_sigma_m=0.1 * CELL_M)
+
+
+def _find_unjudged(case: Case) -> Pose2 | None:
+    """By the end points that the filter keeps, alone."""
+    scan = merge_turn_minima(case.turn)
+    return _search(case.room.map, Scan(scan.sensor, scan.ranges_m))
+
+
+def _search(map: PreparedMap, scan: Scan) -> Pose2 | None:
+    hypotheses = search(map, None, scan, method="fft", rotation_step_rad=STEP_RAD).hypotheses
+    return hypotheses[0].T_map_robot if hypotheses else None
+
+
 def locate(case: Case, filter: Filter = merge_turn_minima, masks: int = MASKS) -> Pose2:
-    """The free cell and heading of the largest correlation: the method's own, unrefined answer."""
+    """The free cell and heading of the largest correlation: the paper's answer."""
     return argmax(case.room.map.grid, correlate(case.room.map, filter(case.turn), masks))
+
+
+def _error_dm(estimate: Pose2 | None, case: Case) -> float:
+    return 10.0 * translation_distance(estimate, case.T_map_robot) if estimate else math.inf
 
 
 def _case(room: Room, T_map_robot: Pose2, seed: int) -> Case:
@@ -167,12 +214,16 @@ def make_cases(seed: int, seeds: int) -> list[Case]:
 def _random_poses(cases: list[Case]) -> dict:
     """Shares of random poses that are found, with everything and with a part left out."""
     ways: dict[str, Callable[[Case], Pose2 | None]] = {
-        "success": locate,
-        "success_paper_filter": lambda case: locate(case, by_sonar),
-        "success_without_filter": lambda case: locate(case, merge_turn),
-        "success_without_masks": lambda case: locate(case, masks=0),
-        "success_both_masks": lambda case: locate(case, masks=2),
-        "success_search_refined": _search,
+        "success": find,
+        "success_paper_filter": lambda case: find(case, by_sonar),
+        "success_without_filter": lambda case: find(case, unfiltered),
+        "success_without_masks": lambda case: find(case, masks=0),
+        "success_unjudged": _find_unjudged,
+        "success_raw": locate,
+        "success_raw_paper_filter": lambda case: locate(case, by_sonar),
+        "success_raw_without_filter": lambda case: locate(case, unfiltered),
+        "success_raw_without_masks": lambda case: locate(case, masks=0),
+        "success_raw_both_masks": lambda case: locate(case, masks=2),
     }
     estimates: dict[str, list[Pose2 | None]] = {name: [] for name in ways}
     with progress_bar() as bar:
@@ -181,16 +232,17 @@ def _random_poses(cases: list[Case]) -> dict:
             for name, way in ways.items():
                 estimates[name].append(way(case))
             bar.advance(task)
-    errors_dm = [
-        translation_distance(estimate, case.T_map_robot) * 10.0
-        for estimate, case in zip(estimates["success"], cases, strict=True)
-        if estimate is not None
-    ]
+    medians = {
+        name: statistics.median(
+            _error_dm(estimate, case) for estimate, case in zip(estimates[found], cases, strict=True)
+        )
+        for name, found in (("median_error_dm", "success"), ("median_error_raw_dm", "success_raw"))
+    }
     shares = {
         name: _share(_is_right(one, case) for one, case in zip(found, cases, strict=True))
         for name, found in estimates.items()
     }
-    return {"poses": len(cases), "median_error_dm": statistics.median(errors_dm)} | shares
+    return {"poses": len(cases)} | medians | shares
 
 
 def _wrapped(cases: list[Case]) -> dict:
@@ -204,14 +256,6 @@ def _wrapped(cases: list[Case]) -> dict:
         ):
             found[name].append(_is_right(argmax(map.grid, volume), case))
     return {"poses": len(cases)} | {name: _share(iter(right)) for name, right in found.items()}
-
-
-def _search(case: Case) -> Pose2 | None:
-    """search() with method fft: the map's likelihood field in place of masks, refined below the grid."""
-    result = search(
-        case.room.map, None, merge_turn_minima(case.turn), method="fft", rotation_step_rad=STEP_RAD
-    )
-    return result.hypotheses[0].T_map_robot if result.hypotheses else None
 
 
 def _is_right(estimate: Pose2 | None, case: Case) -> bool:
@@ -256,7 +300,7 @@ def _times(case: Case) -> dict:
     return medians | {"transform_shape": [rows, cols]}
 
 
-def _draw(points: dict[str, Case], estimates: dict[str, Pose2], out: Path) -> list[str]:
+def _draw(points: dict[str, Case], estimates: dict[str, Pose2 | None], out: Path) -> list[str]:
     from landfall.reproduce._fft_pictures import draw_headings, draw_points, draw_slices, draw_wrap
 
     scans = {name: merge_turn_minima(case.turn) for name, case in points.items()}
@@ -264,7 +308,8 @@ def _draw(points: dict[str, Case], estimates: dict[str, Pose2], out: Path) -> li
     maps = {name: case.room.map.grid for name, case in points.items()}
     turns = {name: (merge_turn(case.turn), scans[name]) for name, case in points.items()}
     truths = {name: case.T_map_robot for name, case in points.items()}
-    draw_points(maps, turns, truths, estimates, out / "points.png")
+    found = {name: pose for name, pose in estimates.items() if pose is not None}
+    draw_points({name: maps[name] for name in found}, turns, truths, found, out / "points.png")
     draw_slices(volumes, CELL_M, truths, out / "slices.png")
     draw_headings(volumes, out / "headings.png")
     cut = PreparedMap(cut_to_walls(maps["C"]))
