@@ -121,7 +121,8 @@ void judge_by_readings(const Query& query, Modes& found, SearchCounts& counts) {
   double most = weight(0);
   for (std::size_t i = 1; i < judged.size(); ++i) most = std::max(most, weight(i));
   parallel_for(judged.size(), query.threads, [&](std::size_t i) {
-    if (weight(i) >= most - most_gained_nats) judged[i] = judge.best_around(judged[i]);
+    if (weight(i) >= most - most_gained_nats && !query.out_of_time())
+      judged[i] = judge.best_around(judged[i]);
     Mode& mode = found.modes[i];
     mode.hypothesis.T_map_robot = judged[i].T_map_robot;
     mode.share = judged[i].share;

@@ -1,8 +1,8 @@
 // Modes of a scan that was condensed from readings (Scan::measured), judged by all of these.
 //
 // The few end points that a minimum filter keeps (Espino et al., section 3.2) propose poses; several may hold
-// as many of them. What was dropped tells these apart: a cone that holds a wall nearer than its reading's
-// speaks against a pose, a reading that is right for it.
+// as many of them. What was dropped tells these apart: a reading shorter than all that its cone holds speaks
+// against a pose, one that is right for it.
 #pragma once
 
 #include "engine/rank.hpp"
