@@ -32,6 +32,7 @@ std::vector<Scan> turn_at(const Pose2& T_map_robot) {
         {.T_robot_beam = {0.0, 0.0, k * pi / 2.0}, .half_angle_rad = pi / 12.0, .range_max_m = 8.0});
   constexpr int steps = 24;
   std::vector<Pose2> T_map_turned;
+  T_map_turned.reserve(steps);
   for (int i = 0; i < steps; ++i) T_map_turned.push_back(T_map_robot * Pose2{0.0, 0.0, i * 2.0 * pi / steps});
   return simulate(room(), std::make_shared<const Sensor>(sensor), T_map_turned, {.seed = 3});
 }
