@@ -1,9 +1,9 @@
-/* A robot with eight sonars turns on the spot: the whole of method fft from C. */
+/* A robot with eight narrow sonars turns on the spot: the whole of method fft from C. */
 #include <math.h>
 
 #include "drawn_room.h"
 
-enum { TURNS = 32, SONARS = 8 };
+enum { TURNS = 90, SONARS = 8 };
 static const double PI = 3.14159265358979;
 static const landfall_pose TRUTH = {2.468, 2.554, 0.6};
 
@@ -12,7 +12,6 @@ static landfall_sensor* make_sonars(void) {
   landfall_fan_options_init(&fan);
   fan.beam_count = SONARS;
   fan.step_rad = 2.0 * PI / SONARS;
-  fan.half_angle_rad = PI / 12.0;
   fan.range_max_m = 5.0;
   landfall_sensor* sensor = NULL;
   CHECK_OK(landfall_sensor_fan(&fan, &sensor));
@@ -32,6 +31,9 @@ int main(void) {
   CHECK_OK(landfall_scans_new(&turn));
   CHECK_OK(landfall_scans_new(&condensed));
   CHECK_OK(landfall_simulate(map, sonars, turned, TURNS, 1, turn));
+  CHECK(landfall_scans_merge_turn_minima(turn, 1, TURNS, condensed) == LANDFALL_INVALID_ARGUMENT);
+  landfall_sensor* scanner = make_scanner();
+  CHECK_OK(landfall_simulate(map, scanner, &TRUTH, 1, 1, turn)); /* another sensor's scan at the end */
   CHECK(landfall_scans_merge_turn_minima(turn, 1, TURNS, condensed) == LANDFALL_INVALID_ARGUMENT);
   CHECK(landfall_scans_count(condensed) == 0);
   CHECK_OK(landfall_scans_merge_turn_minima(turn, 0, TURNS, condensed));
@@ -59,6 +61,7 @@ int main(void) {
   landfall_prior_free(anywhere);
   landfall_scans_free(condensed);
   landfall_scans_free(turn);
+  landfall_sensor_free(scanner);
   landfall_sensor_free(sonars);
   landfall_map_free(map);
   return 0;
