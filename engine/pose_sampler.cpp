@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace landfall::internal {
@@ -37,6 +38,31 @@ double half_cone_rad(const std::vector<bool>& has_heading, double step_rad) {
   return std::min(std::numbers::pi, 0.5 * step_rad * std::max(1, count - longest_gap));
 }
 
+// Rows and columns of cells, last one included.
+struct CellBox {
+  int col0 = std::numeric_limits<int>::max();
+  int row0 = std::numeric_limits<int>::max();
+  int col1 = std::numeric_limits<int>::min();
+  int row1 = std::numeric_limits<int>::min();
+
+  void add(int col, int row) {
+    col0 = std::min(col0, col);
+    row0 = std::min(row0, row);
+    col1 = std::max(col1, col);
+    row1 = std::max(row1, row);
+  }
+  void add(const BlockMask& mask) {
+    for (std::size_t word = 0; word < mask.words.size(); ++word) {
+      const auto block = static_cast<int>(word);
+      for (std::uint64_t bits = mask.words[word]; bits != 0; bits &= bits - 1) {
+        const int bit = std::countr_zero(bits);
+        add((mask.first_col + block % mask.cols) * block_cells + bit % block_cells,
+            (mask.first_row + block / mask.cols) * block_cells + bit / block_cells);
+      }
+    }
+  }
+};
+
 }  // namespace
 
 PoseSampler::PoseSampler(const Lattice& lattice, const Domain& domain) : lattice_(lattice) {
@@ -55,7 +81,19 @@ void PoseSampler::add(const DomainComponent& from) {
     component.poses_before.push_back(component.poses_before.back() +
                                      masks_[component.mask_of_heading.back()].cells_before.back());
   }
-  if (component.poses_before.back() > 0) components_.push_back(std::move(component));
+  if (component.poses_before.back() == 0) return;
+  component.half_extent_m = half_extent_of(component);
+  components_.push_back(std::move(component));
+}
+
+double PoseSampler::half_extent_of(const Component& component) const {
+  CellBox box;
+  std::vector<std::size_t> masks = component.mask_of_heading;  // many headings share one
+  std::sort(masks.begin(), masks.end());
+  masks.erase(std::unique(masks.begin(), masks.end()), masks.end());
+  for (const std::size_t mask : masks) box.add(*masks_[mask].mask);
+  return 0.5 * lattice_.resolution_m *
+         (std::max(box.col1 - box.col0, box.row1 - box.row0) + lattice_.step_cells);
 }
 
 std::size_t PoseSampler::counted(const BlockMask& mask) {
@@ -111,7 +149,7 @@ Pose2 PoseSampler::moved_within_step(const LatticePose& pose, CounterRng& rng) c
                                      lattice_.heading_grid_rad(pose.heading) + turned_rad};
 }
 
-Pose2 PoseSampler::draw(CounterRng& rng) const {
+PoseSampler::Drawn PoseSampler::draw_with_component(CounterRng& rng) const {
   constexpr int most_rejections = 1000;  // of a Gaussian's support, its density takes one in seven
   const double weight = rng.uniform() * components_.back().weight_up_to;
   std::size_t chosen = 0;
@@ -123,7 +161,7 @@ Pose2 PoseSampler::draw(CounterRng& rng) const {
     if (component.gaussian == nullptr) break;
     if (rng.uniform() < std::exp(component.gaussian->log(lattice_.T_map_robot(pose)))) break;
   }
-  return moved_within_step(pose, rng);
+  return {.T_map_robot = moved_within_step(pose, rng), .component = chosen};
 }
 
 }  // namespace landfall::internal

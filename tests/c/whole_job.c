@@ -96,6 +96,43 @@ static void search_under_a_mixture_of_two_maps(const landfall_map* map, const la
   landfall_prior_free(components[0]);
 }
 
+/* The method's own pose, which follows from the seed and from nothing else. */
+static landfall_pose search_by(const char* method, uint64_t seed, const landfall_map* map,
+                               const landfall_scans* scans) {
+  landfall_search_options options;
+  landfall_search_options_init(&options);
+  options.method = method;
+  options.seed = seed;
+  landfall_prior* prior = NULL;
+  const landfall_pose near_truth = {2.45, 3.56, 0.58};
+  const double half_m = strcmp(method, "sdn") == 0 ? 0.1 : 1.0; /* sdn is for small windows */
+  CHECK_OK(landfall_prior_window(near_truth, half_m, half_m, half_m, &prior));
+  landfall_results* results = NULL;
+  CHECK_OK(landfall_search(map, prior, scans, &options, &results));
+  landfall_result result;
+  CHECK_OK(landfall_results_get(results, 0, &result));
+  CHECK(strncmp(result.method, method, strlen(method)) == 0);
+  CHECK(result.hypothesis_count >= 1 && result.verdict == LANDFALL_FOUND);
+  const landfall_hypothesis best = result.hypotheses[0];
+  CHECK(hypot(best.T_map_robot.x_m - TRUTH.x_m, best.T_map_robot.y_m - TRUTH.y_m) < 0.05);
+  CHECK(fabs(best.T_map_robot.theta_rad - TRUTH.theta_rad) < 0.02);
+  CHECK(result.proven == 0 && result.rays_cast > 0);
+  landfall_results_free(results);
+  landfall_prior_free(prior);
+  return best.T_map_robot_unrefined;
+}
+
+static void search_by_diffusion(const landfall_map* map, const landfall_scans* scans) {
+  const char* const methods[2] = {"sdn", "fsdn"};
+  for (int i = 0; i < 2; ++i) {
+    const landfall_pose one = search_by(methods[i], 1, map, scans);
+    const landfall_pose again = search_by(methods[i], 1, map, scans);
+    const landfall_pose other = search_by(methods[i], 2, map, scans);
+    CHECK(one.x_m == again.x_m && one.y_m == again.y_m && one.theta_rad == again.theta_rad);
+    CHECK(one.x_m != other.x_m || one.y_m != other.y_m);
+  }
+}
+
 static void list_methods(void) {
   int found = 0;
   for (size_t i = 0; i < landfall_method_count(); ++i) {
@@ -125,6 +162,7 @@ int main(void) {
   landfall_sensor_free(scanner); /* the scans keep it alive */
   search_under_every_prior(map, scans);
   search_under_a_mixture_of_two_maps(map, scans);
+  search_by_diffusion(map, scans);
   list_methods();
   landfall_scans_free(scans);
   landfall_map_free(map);

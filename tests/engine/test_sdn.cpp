@@ -196,6 +196,33 @@ TEST(Fsdn, TwoRoomsThatLookTheSameAreAmbiguousUnlessABeaconTells) {
   }
 }
 
+// 3.1: "a number of FSDN cells are set to this position", the others are anywhere.
+TEST(Fsdn, CellsOfABeaconStartFocusedThereWithHeadingsAllAround) {
+  const PreparedMap map(testing::furnished_room());
+  const Pose2 T_map_robot{3.05, 2.05, 1.0};
+  const Scan scan = look(map, full_circle(120), T_map_robot);
+  const PosePrior prior{Mixture{{3.0, 1.0}, {{Anywhere{}}, {Beacons{{{{3.0, 2.0}, 0.15}}}}}}};
+  const DiffusionRun run = run_diffusion(map, prior, scan, {.cells = 2000, .snapshot_iterations = {0}});
+  const DiffusionSnapshot& start = run.snapshots.front();
+  int near = 0;
+  int active = 0;
+  double cos_sum = 0.0;
+  double sin_sum = 0.0;
+  for (std::size_t i = 0; i < start.T_map_robot.size(); ++i) {
+    const Pose2& pose = start.T_map_robot[i];
+    if (translation_distance(pose, {3.0, 2.0, 0.0}) > 0.25) continue;
+    ++near;
+    active += start.active[i];
+    cos_sum += std::cos(pose.theta_rad);
+    sin_sum += std::sin(pose.theta_rad);
+  }
+  EXPECT_NEAR(near, 500, 100);
+  EXPECT_GT(active, 0.95 * near);  // from so deep a level one test does not lead above the top
+  EXPECT_LT(std::hypot(cos_sum, sin_sum), 0.15 * near);
+  ASSERT_FALSE(run.modes.empty());
+  EXPECT_LT(translation_distance(run.modes.front().T_map_robot, T_map_robot), 0.2);
+}
+
 TEST(Fsdn, OneBeamScansAndEmptyPriorsHaveAnAnswer) {
   const PreparedMap map(testing::furnished_room());
   const auto one_beam = std::make_shared<const Sensor>(make_fan({.beams = 1, .range_max_m = 30.0}));

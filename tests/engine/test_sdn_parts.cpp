@@ -24,6 +24,8 @@ using internal::Mapping;
 const std::vector<FocusLevel> three_levels{
     {.half_m = 0.4, .half_rad = 0.1}, {.half_m = 0.2, .half_rad = 0.05}, {.half_m = 0.1, .half_rad = 0.025}};
 
+const Mapping nobody{};  // polled, and inactive
+
 TEST(FocusLevels, HalveOrFasterDownToTheFinest) {
   const auto levels = internal::make_focus_levels({.half_m = 0.5, .half_rad = 0.1});
   ASSERT_EQ(levels.size(), 7);  // 0.5 / 0.01 = 50 is between 2^5 and 2^6
@@ -44,7 +46,7 @@ TEST(Cells, AreActiveAfterATestThatPassesAtTheTop) {
   Cells cells(1, three_levels);
   CounterRng rng(1);
   cells.place(0, {1.0, 2.0, 0.5});
-  cells.pass(0, rng);
+  cells.pass(0, nobody, rng);
   cells.publish();
   EXPECT_TRUE(cells.mapping(0).active);
   EXPECT_FALSE(cells.mapping(0).focused);
@@ -65,8 +67,8 @@ TEST(Cells, MoveUpToTheRegionThatTheyCameFromAndStayActive) {
   Cells cells(1, three_levels);
   CounterRng rng(1);
   cells.place(0, {1.0, 2.0, 0.5});
-  cells.pass(0, rng);
-  cells.pass(0, rng);
+  cells.pass(0, nobody, rng);
+  cells.pass(0, nobody, rng);
   EXPECT_EQ(cells.level(0), 2);
   cells.fail(0);
   cells.fail(0);
@@ -76,13 +78,71 @@ TEST(Cells, MoveUpToTheRegionThatTheyCameFromAndStayActive) {
   EXPECT_EQ(cells.T_map_robot(0), (Pose2{1.0, 2.0, 0.5}));
 }
 
+TEST(Cells, MoveUpTwoLevelsOrBecomeInactive) {
+  Cells cells(2, three_levels);
+  CounterRng rng(1);
+  for (const std::size_t cell : {0, 1}) {
+    cells.place(cell, {1.0, 2.0, 0.5});
+    cells.pass(cell, nobody, rng);
+  }
+  cells.pass(0, nobody, rng);
+  cells.fail(0, 2);
+  cells.fail(1, 2);
+  cells.publish();
+  EXPECT_TRUE(cells.mapping(0).active);
+  EXPECT_EQ(cells.T_map_robot(0), (Pose2{1.0, 2.0, 0.5}));
+  EXPECT_FALSE(cells.mapping(1).active);
+  EXPECT_EQ(cells.level(1), 0);
+}
+
+TEST(Cells, StartBelowTheTopWhereThePriorTellsAsMuch) {
+  Cells cells(1, three_levels);
+  cells.place(0, {1.0, 2.0, 0.5}, 2);
+  EXPECT_EQ(cells.level(0), 2);
+  for (const std::size_t level : {1, 0}) {  // up to regions around the same place
+    cells.fail(0);
+    EXPECT_EQ(cells.level(0), level);
+    EXPECT_EQ(cells.T_map_robot(0), (Pose2{1.0, 2.0, 0.5}));
+  }
+}
+
+TEST(Cells, MoveDownToThePartWhereADeeperCellOfTheirRegionIs) {
+  const Mapping deeper{.T_map_robot = {1.39, 1.61, 0.59}, .active = true, .focused = false, .level = 2};
+  Mapping inactive = deeper;
+  inactive.active = false;
+  Mapping no_deeper = deeper;
+  no_deeper.level = 0;
+  Mapping outside = deeper;
+  outside.T_map_robot.theta_rad = 0.61;
+  const auto parts_that_hold_it = [&](const Mapping& polled) {
+    int near = 0;
+    for (std::uint32_t i = 0; i < 100; ++i) {
+      Cells cells(1, three_levels);
+      CounterRng rng(9, i);
+      cells.place(0, {1.0, 2.0, 0.5});
+      cells.pass(0, polled, rng);
+      EXPECT_EQ(cells.level(0), 1);
+      const Pose2& T_map_part = cells.T_map_robot(0);
+      near += std::abs(T_map_part.x_m - 1.39) <= 0.1 && std::abs(T_map_part.y_m - 1.61) <= 0.1 &&
+                      std::abs(T_map_part.theta_rad - 0.59) <= 0.025
+                  ? 1
+                  : 0;
+    }
+    return near;
+  };
+  EXPECT_EQ(parts_that_hold_it(deeper), 100);
+  EXPECT_EQ(parts_that_hold_it(inactive), 0);  // random parts reach no farther than 0.2 m
+  EXPECT_EQ(parts_that_hold_it(no_deeper), 0);
+  EXPECT_EQ(parts_that_hold_it(outside), 0);
+}
+
 TEST(Cells, MoveDownIntoPartsOfTheirRegion) {
   int moved = 0;
   for (std::uint32_t i = 0; i < 300; ++i) {
     Cells cells(1, three_levels);
     CounterRng rng(7, i);
     cells.place(0, {1.0, 2.0, 0.5});
-    cells.pass(0, rng);
+    cells.pass(0, nobody, rng);
     const Pose2& T_map_part = cells.T_map_robot(0);
     EXPECT_LE(std::abs(T_map_part.x_m - 1.0), 0.2);
     EXPECT_LE(std::abs(T_map_part.y_m - 2.0), 0.2);
@@ -97,7 +157,7 @@ TEST(Cells, AreFocusedAfterSeveralTestsAtTheFinestLevelAndStayThere) {
   CounterRng rng(1);
   cells.place(0, {1.0, 2.0, 0.5});
   for (const bool focused : {false, false, true, true}) {
-    cells.pass(0, rng);
+    cells.pass(0, nobody, rng);
     cells.publish();
     EXPECT_EQ(cells.mapping(0).focused, focused);
     EXPECT_EQ(cells.T_map_robot(0), (Pose2{1.0, 2.0, 0.5}));
@@ -113,7 +173,7 @@ TEST(Cells, CopiesBeginAtTheTopAroundTheirDonor) {
     Cells cells(1, three_levels);
     CounterRng rng(3, i);
     cells.place(0, {5.0, 5.0, 0.0});
-    cells.pass(0, rng);
+    cells.pass(0, nobody, rng);
     cells.copy(0, {1.0, 2.0, 0.5}, rng);
     EXPECT_EQ(cells.level(0), 0);
     EXPECT_LE(std::abs(cells.T_map_robot(0).x_m - 1.0), 0.4);
@@ -198,12 +258,52 @@ TEST_F(BandsOfARoom, LeaveOutInvalidBeamsAndAllowNothingHitWhereNothingWasHit) {
 }
 
 TEST(Parameters, GrowWithWhatIsSearched) {
-  EXPECT_EQ(internal::choose_cells(1.0), 96);
-  EXPECT_EQ(internal::choose_cells(26'000.0), 540);
+  EXPECT_EQ(internal::choose_cells(1.0), 64);
+  EXPECT_EQ(internal::choose_cells(26'000.0), 332);
   EXPECT_EQ(internal::choose_cells(1e9), 4096);
   const internal::RunLimits limits = internal::choose_limits(1000.0, 128);
   EXPECT_GT(limits.draws, limits.rival_draws);
   EXPECT_GT(limits.iterations, 100);
+}
+
+TEST(Bands, TellABeamThroughAWallFromOneThatIsShortened) {
+  const internal::Band band{.low_m = 2.0F, .high_m = 3.0F};
+  EXPECT_TRUE(band.passes_wall(1.9F));
+  EXPECT_FALSE(band.passes_wall(2.5F));
+  EXPECT_FALSE(band.passes_wall(3.1F));
+}
+
+// 3.1: beacons among a prior of anywhere.
+struct BeaconStarts : ::testing::Test {
+  const PreparedMap map{testing::furnished_room()};
+  const internal::Lattice lattice = internal::make_lattice(map.grid(), 0.0, 0.02);
+  const internal::SharedMask free = map.state().free_mask(0.0, 1);
+
+  // Of cells drawn from anywhere and from a beacon.
+  [[nodiscard]] std::vector<std::size_t> starts(double radius_m) const {
+    const PosePrior prior{
+        Mixture{{1.0, 1.0}, {{Anywhere{}}, {Beacons{{{.p_map = {3.0, 2.0}, .radius_m = radius_m}}}}}}};
+    const internal::Domain domain = internal::make_domain(prior, lattice, free);
+    const internal::PoseSampler sampler(lattice, domain);
+    return internal::start_levels(sampler, levels);
+  }
+  const std::vector<FocusLevel> levels = internal::make_focus_levels({.half_m = 0.5, .half_rad = 0.0873});
+};
+
+TEST_F(BeaconStarts, AreAtTheFinestLevelWhoseRegionCoversTheDisc) {
+  for (const double radius_m : {0.11, 0.2, 0.3}) {
+    const std::vector<std::size_t> start = starts(radius_m);
+    ASSERT_EQ(start.size(), 2);
+    EXPECT_EQ(start[0], 0);
+    const double slack_m = 2.0 * lattice.resolution_m;
+    EXPECT_GE(levels[start[1]].half_m, radius_m - slack_m) << radius_m;
+    EXPECT_LT(levels[start[1] + 1].half_m, radius_m + slack_m) << radius_m;
+  }
+  EXPECT_GT(starts(0.11)[1], starts(0.3)[1]);
+}
+
+TEST_F(BeaconStarts, AreAtTheTopWhereNoRegionCoversTheDisc) {
+  EXPECT_EQ(starts(1.0)[1], 0);
 }
 
 TEST(PoseSampler, DrawsFromThePriorAlone) {

@@ -19,7 +19,7 @@ struct DiffusionOptions {
   int cells = 0;              // 0: chosen from the size of what is searched
   double top_half_m = 0.0;    // half width of the top level's regions; 0: chosen
   double top_half_rad = 0.0;  // of their headings
-  int max_modes = 16;         // networks are run until so many modes are found, or none explains as well
+  int max_modes = 32;         // networks are run until so many modes are found, or none explains as well
   int threads = 0;            // 0: all
   std::uint64_t seed = 0;
   double time_budget_s = 0.0;  // 0: none
@@ -41,9 +41,10 @@ struct DiffusionMode {
   int agreeing = 0;     // beams within their tolerance at the finest level
   int cells = 0;
   int iterations = 0;  // of the network that found it
-  // Until it was found, networks before included: wall time, and processor time over all threads.
+  // Until it was found, networks before included: wall time, and processor time over all threads, rays.
   double found_ms = 0.0;
   double found_processor_ms = 0.0;
+  std::int64_t found_rays_cast = 0;
 };
 
 struct DiffusionLevel {

@@ -1,5 +1,7 @@
 #include "engine/methods/sdn/cells.hpp"
 
+#include <cmath>
+
 namespace landfall::internal {
 namespace {
 
@@ -20,6 +22,12 @@ Pose2 moved_within(const Pose2& pose, const FocusLevel& box, CounterRng& rng) {
   return {x_m, y_m, wrap_angle(pose.theta_rad + between_plus_minus(box.half_rad, rng))};
 }
 
+bool holds(const FocusLevel& region, const Pose2& center, const Pose2& pose) {
+  return std::abs(pose.x_m - center.x_m) <= region.half_m &&
+         std::abs(pose.y_m - center.y_m) <= region.half_m &&
+         angle_distance(pose.theta_rad, center.theta_rad) <= region.half_rad;
+}
+
 }  // namespace
 
 Cells::Cells(std::size_t count, std::span<const FocusLevel> levels)
@@ -30,25 +38,32 @@ Cells::Cells(std::size_t count, std::span<const FocusLevel> levels)
       mappings_(count),
       next_(count) {}
 
-void Cells::place(std::size_t cell, const Pose2& T_map_robot) {
-  level_[cell] = 0;
+void Cells::place(std::size_t cell, const Pose2& T_map_robot, std::size_t level) {
   passed_[cell] = 0;
-  path_[index(cell)] = T_map_robot;
+  for (std::size_t above = 0; above <= level; ++above) {
+    level_[cell] = static_cast<std::uint8_t>(above);
+    path_[index(cell)] = T_map_robot;
+  }
 }
 
 void Cells::copy(std::size_t cell, const Pose2& T_map_robot, CounterRng& rng) {
   place(cell, rng.below(middle_one_in) == 0 ? T_map_robot : moved_within(T_map_robot, levels_.front(), rng));
 }
 
-void Cells::pass(std::size_t cell, CounterRng& rng) {
+void Cells::pass(std::size_t cell, const Mapping& polled, CounterRng& rng) {
   const bool at_finest = level_[cell] == finest();
   if (at_finest && passed_[cell] < focused_after) ++passed_[cell];
-  next_[cell] = {.T_map_robot = T_map_robot(cell), .active = true, .focused = passed_[cell] >= focused_after};
+  next_[cell] = {.T_map_robot = T_map_robot(cell),
+                 .active = true,
+                 .focused = passed_[cell] >= focused_after,
+                 .level = level_[cell]};
   if (at_finest) return;
+  const FocusLevel& here = levels_[level_[cell]];
+  const FocusLevel& below = levels_[level_[cell] + 1U];
   Pose2 T_map_part = T_map_robot(cell);
-  if (rng.below(middle_one_in) != 0) {
-    const FocusLevel& here = levels_[level_[cell]];
-    const FocusLevel& below = levels_[level_[cell] + 1U];
+  if (polled.active && polled.level > level_[cell] && holds(here, T_map_part, polled.T_map_robot)) {
+    T_map_part = moved_within(polled.T_map_robot, levels_[polled.level], rng);
+  } else if (rng.below(middle_one_in) != 0) {
     T_map_part = moved_within(
         T_map_part, {.half_m = here.half_m - below.half_m, .half_rad = here.half_rad - below.half_rad}, rng);
   }
@@ -56,11 +71,11 @@ void Cells::pass(std::size_t cell, CounterRng& rng) {
   path_[index(cell)] = T_map_part;
 }
 
-void Cells::fail(std::size_t cell) {
-  const bool active = level_[cell] > 0;
+void Cells::fail(std::size_t cell, std::size_t levels) {
+  const bool active = level_[cell] >= levels;
   passed_[cell] = 0;
-  if (active) --level_[cell];
-  next_[cell] = {.T_map_robot = T_map_robot(cell), .active = active};
+  level_[cell] = static_cast<std::uint8_t>(active ? level_[cell] - levels : 0);
+  next_[cell] = {.T_map_robot = T_map_robot(cell), .active = active, .focused = false, .level = level_[cell]};
 }
 
 }  // namespace landfall::internal

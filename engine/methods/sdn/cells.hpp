@@ -19,7 +19,8 @@ namespace landfall::internal {
 struct Mapping {
   Pose2 T_map_robot{};
   bool active = false;
-  bool focused = false;  // within tolerance at the finest level, several times in a row
+  bool focused = false;    // within tolerance at the finest level, several times in a row
+  std::uint8_t level = 0;  // of its region
 };
 
 class Cells {
@@ -32,19 +33,22 @@ class Cells {
   // As they were when the last testing phase ended.
   [[nodiscard]] const Mapping& mapping(std::size_t cell) const { return mappings_[cell]; }
   [[nodiscard]] std::span<const Mapping> mappings() const { return mappings_; }
+  // After the test of this phase.
+  [[nodiscard]] bool is_active(std::size_t cell) const { return next_[cell].active; }
   // Where the cell is about to be tested.
   [[nodiscard]] const Pose2& T_map_robot(std::size_t cell) const { return path_[index(cell)]; }
 
-  // A new mapping, at the top level.
-  void place(std::size_t cell, const Pose2& T_map_robot);
+  // A new mapping, at the top level or below, where the prior tells as much.
+  void place(std::size_t cell, const Pose2& T_map_robot, std::size_t level = 0);
   // 3.3: a mapping copied from another cell, which begins its search centred around this location at the top
   // level.
   void copy(std::size_t cell, const Pose2& T_map_robot, CounterRng& rng);
-  // 3.2: within tolerance, a cell moves down a level, into a part of its region drawn at random, and stays
-  // where it is at the finest.
-  void pass(std::size_t cell, CounterRng& rng);
-  // Out of tolerance, it moves up a level; at the top it becomes inactive.
-  void fail(std::size_t cell);
+  // 3.2: within tolerance, a cell moves down a level, into a part of its region, and stays where it is at the
+  // finest. Which part, the paper leaves open: the one that `polled`, another cell, points to, where that is
+  // active, within this region and deeper; else one drawn at random.
+  void pass(std::size_t cell, const Mapping& polled, CounterRng& rng);
+  // Out of tolerance, it moves up a level, or several; above the top it becomes inactive.
+  void fail(std::size_t cell, std::size_t levels = 1);
   // Ends a testing phase: what pass() and fail() did is seen by all cells. Only whole phases may be mixed
   // with reading mapping(); each cell may be moved by another thread.
   void publish() { mappings_.swap(next_); }

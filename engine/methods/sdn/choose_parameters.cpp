@@ -23,21 +23,32 @@ std::vector<FocusLevel> make_levels(const PoseSampler& sampler, const DiffusionS
                             .half_rad = std::min(top.half_rad, sampler.half_extent_rad())});
 }
 
+std::vector<std::size_t> start_levels(const PoseSampler& sampler, std::span<const FocusLevel> levels) {
+  std::vector<std::size_t> start(sampler.components(), 0);
+  for (std::size_t i = 0; i < start.size(); ++i)
+    while (start[i] + 1 < levels.size() && levels[start[i] + 1].half_m >= sampler.half_extent_m(i))
+      ++start[i];
+  return start;
+}
+
 double map_noise_m(const PreparedState& map) {
   return map.is_plan() ? 0.0 : map.grid().resolution_m;
 }
 
 std::size_t choose_cells(double regions) {
-  // Measured in workshops of 350 m2 (bench/RESULTS.md): 2 to 3 tests a region, 130 tests a cell.
-  constexpr double cells_per_region = 2.7 / 130.0;
-  constexpr double fewest = 96.0;
+  // Measured in workshops of 350 m2 (bench/RESULTS.md).
+  constexpr double tests_a_region = 2.3;
+  constexpr double tests_a_cell = 90.0;
+  constexpr double gathering_to_searching = 0.5;
+  constexpr double cells_per_region = gathering_to_searching * tests_a_region / tests_a_cell;
+  constexpr double fewest = 64.0;  // fewer gain nothing, and their mean is rough
   constexpr double most = 4096.0;
   return static_cast<std::size_t>(std::clamp(cells_per_region * regions, fewest, most));
 }
 
 RunLimits choose_limits(double regions, std::size_t cells) {
   constexpr double draws_per_region = 12.0;
-  constexpr double rival_draws_per_region = 4.0;
+  constexpr double rival_draws_per_region = 6.0;
   constexpr double iterations_per_draw = 10.0;
   constexpr double fewest_iterations = 200.0;
   const auto count = static_cast<double>(cells);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/methods/sdn/focus_levels.hpp"
@@ -20,13 +21,20 @@ double volume_of(const FocusLevel& level);
 // wider than the prior itself. One level, the finest, where the network is not focused.
 std::vector<FocusLevel> make_levels(const PoseSampler& sampler, const DiffusionSettings& settings);
 
+// 3.1, beacons: per component of the prior, where cells that draw from it start: the finest level whose
+// region covers the component's positions, headings drawn from the component. A component that no region
+// covers is drawn from at the top, as the parts of a region that does would be: uniformly.
+std::vector<std::size_t> start_levels(const PoseSampler& sampler, std::span<const FocusLevel> levels);
+
 // By how much a map's walls may be off: a plan's are exact, a grid's are good to a cell.
 double map_noise_m(const PreparedState& map);
 
-// The number of cells. A network's tests are those that find the region which holds the robot, in proportion
-// to the number of regions and hardly dependent on the cells, and those in which the cells gather there and
-// focus, in proportion to the cells. So many cells are taken that both are equal: by the model no other
-// number can be more than twice as fast, measured it is 1.4 times; fewer cells give a rougher mean.
+// The number of cells, in proportion to the regions. A network's tests are those that find the region which
+// holds the robot, in proportion to the number of regions and hardly dependent on the cells, and those in
+// which the cells gather there and focus, in proportion to the cells. By these alone the fewest cells were
+// best, but few cells are held by false places more often, cost more time a test and give a rougher mean. So
+// many are taken that gathering costs half of searching; what other numbers take is measured in
+// bench/fsdn_cells.py.
 std::size_t choose_cells(double regions);
 
 // How long the networks of a scan may go on: so many draws that a region which holds the robot is hit, but

@@ -14,7 +14,8 @@ bool Equilibrium::add(std::size_t cells_in_largest_cluster) {
   if (latest_.size() < iterations) return false;
   const double a = std::accumulate(latest_.begin(), latest_.end(), 0.0) / static_cast<double>(iterations);
   const double b = std::min(options_.bound_share * cells, a);
-  if (a < std::max(options_.least_cells, options_.least_share * cells)) return false;
+  const double enough = std::min(options_.least_cells, options_.few_share * cells);
+  if (a < std::max(enough, options_.least_share * cells)) return false;
   return std::all_of(latest_.begin(), latest_.end(), [&](double z) { return std::abs(z - a) <= b; });
 }
 

@@ -14,7 +14,8 @@ struct EquilibriumOptions {
   std::size_t cells = 0;
   int iterations = 6;
   double least_share = 0.08;  // of the cells: a
-  double least_cells = 5.0;   // a too: the mean of few is rough
+  double least_cells = 24.0;  // a too: the mean of few is rough;
+  double few_share = 0.25;    // but of few cells no more than this share is asked for
   double bound_share = 0.2;   // of the cells: b
 };
 

@@ -8,6 +8,7 @@
 #include "engine/methods/sdn/cluster.hpp"
 #include "engine/methods/sdn/equilibrium.hpp"
 #include "engine/parallel.hpp"
+#include "engine/thread_time.hpp"
 
 namespace landfall::internal {
 namespace {
@@ -20,11 +21,12 @@ constexpr double as_well = 0.85;
 constexpr double good = 0.8;
 // Cells may settle beside a mode that is excluded before they find a rival.
 constexpr std::ptrdiff_t enough_worse = 3;
-// 2.2 asks for equilibrium among cells at the finest level. Where nearly all cells have been active for long
-// without it, they hold each other in a place that fits at the coarser levels alone, and draw no new
-// mappings: that place is a mode too, a bad one, without which the next network goes on.
-constexpr double saturation = 0.75;
-constexpr int most_saturated = 120;
+// 2.2 asks for equilibrium among cells at the finest level. Where most cells have been active for long
+// without it, they hold each other in places that fit at the coarser levels alone, and hardly draw new
+// mappings (with half of them active, one test in four): the largest such place is a mode too, a bad one,
+// without which the next network goes on.
+constexpr double saturation = 0.5;
+constexpr int most_saturated = 240;
 // Networks side by side that look for rivals of a good mode, each with its part of the draws: so many at any
 // number of threads, for the same answer.
 constexpr std::uint32_t rival_networks = 2;
@@ -37,6 +39,7 @@ class DiffusionSearch {
         settings_(settings),
         sampler_(query.lattice, query.domain),
         levels_(make_levels(sampler_, settings)),
+        start_levels_(start_levels(sampler_, levels_)),
         bands_(query.scan, levels_,
                {.region_share = settings.region_share, .map_noise_m = map_noise_m(query.map)}),
         rays_(query.map, query.scan, bands_),
@@ -59,6 +62,7 @@ class DiffusionSearch {
       for (std::size_t i = known; i < answer_.modes.size(); ++i) {
         answer_.modes[i].found_ms = found_ms;
         answer_.modes[i].found_processor_ms = answer_.counts.step_ms;
+        answer_.modes[i].found_rays_cast = answer_.counts.tests;
       }
       if (answer_.modes.size() == known || none_explains_as_well()) break;
     }
@@ -96,15 +100,20 @@ class DiffusionSearch {
 
   [[nodiscard]] Outcome run_network(std::uint32_t number, std::span<const Pose2> T_map_mode,
                                     std::int64_t draws) const {
-    Network network({.levels = levels_, .sampler = sampler_, .bands = bands_, .rays = rays_},
+    Network network({.levels = levels_,
+                     .sampler = sampler_,
+                     .start_levels = start_levels_,
+                     .bands = bands_,
+                     .rays = rays_},
                     excluded(T_map_mode),
                     {.cells = cells_,
                      .seed = query_.options.seed,
                      .run = number,
                      .threads = query_.threads,
                      .measure_time = settings_.measure_time});
-    Outcome outcome{.mode = until_equilibrium(network, number, draws)};
-    outcome.counts = network.counts();
+    Outcome outcome;
+    outcome.mode = until_equilibrium(network, number, draws, outcome.counts.step_ms);
+    outcome.counts.add(network.counts());
     outcome.iterations = network.iterations();
     return outcome;
   }
@@ -136,8 +145,8 @@ class DiffusionSearch {
     return has_good_mode() && worse >= enough_worse;
   }
 
-  std::optional<DiffusionMode> until_equilibrium(Network& network, std::uint32_t number,
-                                                 std::int64_t draws) const {
+  std::optional<DiffusionMode> until_equilibrium(Network& network, std::uint32_t number, std::int64_t draws,
+                                                 double& cluster_ms) const {
     const RunLimits limits = choose_limits(regions_, cells_);
     Equilibrium equilibrium({.cells = cells_});
     int saturated = 0;
@@ -145,11 +154,13 @@ class DiffusionSearch {
       if (query_.out_of_time()) break;
       network.step();
       if (settings_.observe) settings_.observe(network, number);
+      const double start_ms = settings_.measure_time ? thread_time_ms() : 0.0;
       const Cluster cluster = cluster_of(network, network.counts().focused);
+      if (settings_.measure_time) cluster_ms += thread_time_ms() - start_ms;
       if (equilibrium.add(cluster.cells)) return mode_of(network, cluster);
-      const bool nearly_all =
+      const bool most =
           static_cast<double>(network.counts().active) >= saturation * static_cast<double>(cells_);
-      saturated = nearly_all ? saturated + 1 : 0;
+      saturated = most ? saturated + 1 : 0;
       if (saturated >= most_saturated)
         return mode_of(network, cluster.cells >= 2 ? cluster
                                                    : largest_cluster(network.cells().mappings(),
@@ -173,6 +184,7 @@ class DiffusionSearch {
   const DiffusionSettings& settings_;
   PoseSampler sampler_;
   std::vector<FocusLevel> levels_;
+  std::vector<std::size_t> start_levels_;
   BeamBands bands_;
   TestRays rays_;
   double regions_;

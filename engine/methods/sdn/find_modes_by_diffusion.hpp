@@ -19,7 +19,7 @@ struct DiffusionSettings {
   std::size_t cells = 0;
   FocusLevel top{};
   double region_share = default_region_share;
-  std::size_t most_modes = 16;
+  std::size_t most_modes = 32;  // bad ones included
   bool measure_time = false;
   // Called after each iteration of each network.
   std::function<void(const Network& network, std::uint32_t run)> observe{};

@@ -12,6 +12,9 @@ namespace landfall::internal {
 namespace {
 
 constexpr std::size_t chunk_cells = TestRays::most_tests;
+// Levels that a cell moves up where its beam would have passed through a wall. The paper moves it up one, as
+// where something stands before the wall; so, cold starts cast half as many rays (bench/RESULTS.md).
+constexpr std::size_t levels_behind_wall = 2;
 
 }  // namespace
 
@@ -36,21 +39,26 @@ void NetworkCounts::add(const NetworkCounts& other) {
 Network::Network(const SearchSpace& space, const Excluded& excluded, const NetworkOptions& options)
     : space_(space), excluded_(excluded), options_(options), cells_(options.cells, space.levels) {}
 
+const Mapping& Network::poll(std::size_t cell, CounterRng& rng) const {
+  const auto others = static_cast<std::uint32_t>(cells_.size() - 1);
+  const std::uint32_t other = others == 0 ? 0 : rng.below(others);
+  return cells_.mapping(other < cell || others == 0 ? other : other + 1);
+}
+
 // 2, diffusion: an inactive cell polls another one at random, copies its mapping where that is active, and
 // else draws a new one. Initialisation is a draw for every cell.
 void Network::diffuse(std::size_t cell, CounterRng& rng, NetworkCounts& counts) {
   if (iteration_ > 0) {
     if (cells_.mapping(cell).active) return;
-    const auto others = static_cast<std::uint32_t>(cells_.size() - 1);
-    const std::uint32_t other = others == 0 ? 0 : rng.below(others);
-    const Mapping& polled = cells_.mapping(other < cell || others == 0 ? other : other + 1);
+    const Mapping& polled = poll(cell, rng);
     if (polled.active) {
       cells_.copy(cell, polled.T_map_robot, rng);
       ++counts.copies;
       return;
     }
   }
-  cells_.place(cell, space_.sampler.draw(rng));
+  const PoseSampler::Drawn drawn = space_.sampler.draw_with_component(rng);
+  cells_.place(cell, drawn.T_map_robot, space_.start_levels[drawn.component]);
   ++counts.draws;
 }
 
@@ -76,16 +84,16 @@ NetworkCounts Network::step_chunk(std::size_t first, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t cell = first + i;
     const std::size_t level = cells_.level(cell);
-    const bool passed = space_.bands.band(level, tests[i].beam).contains(simulated_m[i]) &&
-                        !excluded_.contains(tests[i].T_map_robot);
+    const Band& band = space_.bands.band(level, tests[i].beam);
+    const bool passed = band.contains(simulated_m[i]) && !excluded_.contains(tests[i].T_map_robot);
     if (passed) {
       CounterRng rng = rng_of(cell, 1);
       counts.focused += level == cells_.finest() ? 1 : 0;
-      cells_.pass(cell, rng);
+      cells_.pass(cell, poll(cell, rng), rng);
     } else {
-      cells_.fail(cell);
+      cells_.fail(cell, band.passes_wall(simulated_m[i]) ? levels_behind_wall : 1);
     }
-    counts.active += passed || level > 0 ? 1 : 0;
+    counts.active += cells_.is_active(cell) ? 1 : 0;
   }
   counts.step_ms = now_ms() - start_ms;
   return counts;

@@ -17,6 +17,7 @@ namespace landfall::internal {
 struct SearchSpace {
   std::span<const FocusLevel> levels;
   const PoseSampler& sampler;
+  std::span<const std::size_t> start_levels;  // per component of the sampler
   const BeamBands& bands;
   const TestRays& rays;
 };
@@ -36,7 +37,7 @@ struct NetworkCounts {
   std::int64_t active = 0;   // cells, in the last iteration
   std::int64_t focused = 0;  // cells within tolerance at the finest level, in the last iteration
   double cast_ms = 0.0;      // processor time in ray casting, where it was to be measured,
-  double step_ms = 0.0;      // and in all of the iterations
+  double step_ms = 0.0;      // and in all of the iterations, the search for clusters included
 
   void add(const NetworkCounts& other);
 };
@@ -63,6 +64,8 @@ class Network {
 
  private:
   NetworkCounts step_chunk(std::size_t first, std::size_t count);
+  // Another cell, chosen at random.
+  [[nodiscard]] const Mapping& poll(std::size_t cell, CounterRng& rng) const;
   void diffuse(std::size_t cell, CounterRng& rng, NetworkCounts& counts);
 
   SearchSpace space_;
