@@ -34,7 +34,8 @@ void bind_snapshots(nb::module_& module) {
       .def_ro("cells", &DiffusionMode::cells)
       .def_ro("iterations", &DiffusionMode::iterations, "Of the network that found it.")
       .def_ro("found_ms", &DiffusionMode::found_ms, "Wall time until it was found.")
-      .def_ro("found_processor_ms", &DiffusionMode::found_processor_ms, "Processor time, over all threads.");
+      .def_ro("found_processor_ms", &DiffusionMode::found_processor_ms, "Processor time, over all threads.")
+      .def_ro("found_rays_cast", &DiffusionMode::found_rays_cast, "Rays cast until it was found.");
   nb::class_<DiffusionLevel>(module, "DiffusionLevel", "A focus level: half widths of its regions.")
       .def_ro("half_m", &DiffusionLevel::half_m)
       .def_ro("half_rad", &DiffusionLevel::half_rad);

@@ -6,6 +6,7 @@ import json
 import math
 
 import landfall
+import landfall.reproduce._fsdn_cells as cells
 import landfall.reproduce._fsdn_logs as logs
 import landfall.reproduce.fsdn as fsdn
 import numpy as np
@@ -78,12 +79,50 @@ def test_a_run_is_observed():
         landfall.run_diffusion(map, landfall.Anywhere(), scan, cells=-1)
 
 
+def test_the_expected_cost_counts_failures_and_resamples_starts_in_pairs():
+    costs = np.array([[4.0, 6.0, 2.0], [2.0, 3.0, 1.0], [1.0, 1.0, 1.0]])
+    right = np.array([[1.0, 1.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 0.0]])
+    ratio, low, high = cells.over_best(costs, right, 0)
+    assert ratio == 2.0  # 4 over 2; the third number costs 3, its failures counted
+    assert low <= 2.0 <= high
+    alone = cells.over_best(costs[:2], right[:2], 0)
+    assert alone == pytest.approx((2.0, 2.0, 2.0))  # each start costs twice as much: in any resampling
+
+
+@pytest.mark.parametrize("space", cells.SPACES)
+def test_starts_are_in_their_search_space(space):
+    starts = cells.make_starts(space, 7, make_scanners(), 3)
+    assert len(starts) == 7 and len({start.seed for start in starts}) == 7
+    for start in starts:
+        T = start.truth
+        if isinstance(start.prior, landfall.Window):
+            center = start.prior.T_map_robot
+            assert max(abs(T.x_m - center.x_m), abs(T.y_m - center.y_m)) <= 4.5
+        again = landfall.simulate_ranges(start.map, start.scan.sensor, [T])[0]
+        assert np.median(np.abs(again - np.asarray(start.scan.ranges_m))) < 0.02
+    regions = cells.search_space(starts[0])
+    assert {0: 300, 1: 800, 2: 8000, 3: 35000}[cells.SPACES.index(space)] < regions < 70000
+
+
+def test_what_is_spent_until_the_right_mode():
+    start = cells.make_starts("room of 4 x 4 m", 1, make_scanners(), 1)[0]
+    spent = cells.spend(start, 128)
+    run = landfall.run_diffusion(start.map, start.prior, start.scan, cells=128, max_modes=1, seed=start.seed)
+    assert spent.right and spent.rays == run.rays_cast == run.modes[0].found_rays_cast
+    assert spent.iterations == run.iterations and spent.processor_ms > 0.0
+    start.truth = Pose2(start.truth.x_m + 1.0, start.truth.y_m, start.truth.theta_rad)
+    failed = cells.spend(start, 128)
+    assert not failed.right and failed.rays > spent.rays  # all that the whole search took
+
+
 def test_fsdn_reproduces_the_paper(tmp_path, landfall_command, monkeypatch):
     monkeypatch.setattr(fsdn, "STARTS_A_SEED", 5)
     monkeypatch.setattr(fsdn, "OBSTRUCTED_A_SEED", 2)
     monkeypatch.setattr(fsdn, "OBSTRUCTED_SHARES", (0.0, 0.3))
     monkeypatch.setattr(fsdn, "CELLS", (256, 2048))
     monkeypatch.setattr(fsdn, "CURVE_STARTS", 3)
+    monkeypatch.setattr(fsdn, "CHOICE_CELLS", (64, 256))
+    monkeypatch.setattr(fsdn, "CHOICE_STARTS", 5)
     monkeypatch.setattr(fsdn, "PLAIN_STARTS", 1)
     monkeypatch.setattr(fsdn, "BARE_RAYS", 5000)
     monkeypatch.setattr(logs, "BUILDINGS", ())
@@ -97,6 +136,7 @@ def test_fsdn_reproduces_the_paper(tmp_path, landfall_command, monkeypatch):
     assert 0.1 < result["cast_share"] < 0.95
     assert result["cold_ms_median"] > result["warm_ms_median"] > 0.0
     assert result["cells"] in [row["cells"] for row in result["curve"]]
+    assert result["choice"]["starts"] == 5 and 1.0 <= result["cells_over_best"] < 10.0
     assert result["plain_room"]["sdn_ms"] > result["plain_room"]["fsdn_ms"]
     for name in ("workshops.png", "cells.png", "cells.gif", "curves.png"):
         assert (tmp_path / "out" / name).stat().st_size > 10_000
