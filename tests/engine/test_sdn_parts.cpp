@@ -258,8 +258,8 @@ TEST_F(BandsOfARoom, LeaveOutInvalidBeamsAndAllowNothingHitWhereNothingWasHit) {
 }
 
 TEST(Parameters, GrowWithWhatIsSearched) {
-  EXPECT_EQ(internal::choose_cells(1.0), 64);
-  EXPECT_EQ(internal::choose_cells(26'000.0), 332);
+  EXPECT_EQ(internal::choose_cells(1.0), 48);
+  EXPECT_EQ(internal::choose_cells(40'000.0), 280);
   EXPECT_EQ(internal::choose_cells(1e9), 4096);
   const internal::RunLimits limits = internal::choose_limits(1000.0, 128);
   EXPECT_GT(limits.draws, limits.rival_draws);

@@ -36,14 +36,11 @@ double map_noise_m(const PreparedState& map) {
 }
 
 std::size_t choose_cells(double regions) {
-  // Measured in workshops of 350 m2 (bench/RESULTS.md).
-  constexpr double tests_a_region = 2.3;
-  constexpr double tests_a_cell = 90.0;
-  constexpr double gathering_to_searching = 0.5;
-  constexpr double cells_per_region = gathering_to_searching * tests_a_region / tests_a_cell;
-  constexpr double fewest = 64.0;  // fewer gain nothing, and their mean is rough
+  // Measured in rooms and workshops of 550 to 49,000 regions (bench/fsdn_cells.py).
+  constexpr double cells_per_root = 1.4;
+  constexpr double fewest = 48.0;  // fewer gain little, and their mean is rough
   constexpr double most = 4096.0;
-  return static_cast<std::size_t>(std::clamp(cells_per_region * regions, fewest, most));
+  return static_cast<std::size_t>(std::clamp(cells_per_root * std::sqrt(regions), fewest, most));
 }
 
 RunLimits choose_limits(double regions, std::size_t cells) {

@@ -29,12 +29,10 @@ std::vector<std::size_t> start_levels(const PoseSampler& sampler, std::span<cons
 // By how much a map's walls may be off: a plan's are exact, a grid's are good to a cell.
 double map_noise_m(const PreparedState& map);
 
-// The number of cells, in proportion to the regions. A network's tests are those that find the region which
-// holds the robot, in proportion to the number of regions and hardly dependent on the cells, and those in
-// which the cells gather there and focus, in proportion to the cells. By these alone the fewest cells were
-// best, but few cells are held by false places more often, cost more time a test and give a rougher mean. So
-// many are taken that gathering costs half of searching; what other numbers take is measured in
-// bench/fsdn_cells.py.
+// The number of cells. Searching costs so many tests a region, whatever the cells; gathering and focusing so
+// many a cell; and the fewer cells there are, the more of them a false place holds, in proportion to
+// regions / cells. The sum a regions + b cells + c regions / cells is least at cells in proportion to the
+// root of the regions, and flat around it: what other numbers take is measured in bench/fsdn_cells.py.
 std::size_t choose_cells(double regions);
 
 // How long the networks of a scan may go on: so many draws that a region which holds the robot is hit, but

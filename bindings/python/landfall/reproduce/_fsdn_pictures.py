@@ -99,7 +99,7 @@ def draw_curves(
             cells, [np.nan if row[key] is None else row[key] for row in curve], style, ms=4, label=label
         )
     times.axvline(chosen, color=TRUTH, lw=1)
-    times.set(xscale="log", yscale="log", xlabel="cells", ylabel="until found, median [ms]")
+    times.set(xscale="log", yscale="log", xlabel="cells", ylabel="until found, expected [ms]")
     times.legend(fontsize=7)
     successes.plot(cells, [100 * row["success_1"] for row in curve], "o-", ms=4, color=TRUTH)
     successes.axvline(chosen, color=TRUTH, lw=1, label="chosen by the engine")
