@@ -115,7 +115,7 @@ static landfall_pose search_by(const char* method, uint64_t seed, const landfall
   CHECK(result.hypothesis_count >= 1 && result.verdict == LANDFALL_FOUND);
   const landfall_hypothesis best = result.hypotheses[0];
   CHECK(hypot(best.T_map_robot.x_m - TRUTH.x_m, best.T_map_robot.y_m - TRUTH.y_m) < 0.05);
-  CHECK(fabs(best.T_map_robot.theta_rad - TRUTH.theta_rad) < 0.02);
+  CHECK(fabs(best.T_map_robot.theta_rad - TRUTH.theta_rad) < 0.035); /* 5 cm at 1.5 m */
   CHECK(result.proven == 0 && result.rays_cast > 0);
   landfall_results_free(results);
   landfall_prior_free(prior);
