@@ -165,8 +165,10 @@ class SupportBuilder {
   using InSupport = std::function<bool(const Point2&)>;
 
   [[nodiscard]] Point2 center(int col, int row) const {
-    const Pose2 pose = lattice_.T_map_robot({0, row, col});
-    return {pose.x_m, pose.y_m};
+    const double x_m = (col + 0.5) * lattice_.resolution_m;
+    const double y_m = (row + 0.5) * lattice_.resolution_m;
+    return {lattice_.T_map_grid.x_m + cos_grid_ * x_m - sin_grid_ * y_m,
+            lattice_.T_map_grid.y_m + sin_grid_ * x_m + cos_grid_ * y_m};
   }
   [[nodiscard]] double heading_map_rad(int heading) const {
     return wrap_angle(lattice_.T_map_grid.theta_rad + lattice_.heading_grid_rad(heading));
@@ -228,6 +230,8 @@ class SupportBuilder {
 
   const Lattice& lattice_;
   const SharedMask& free_;
+  double cos_grid_ = std::cos(lattice_.T_map_grid.theta_rad);  // asked for every cell
+  double sin_grid_ = std::sin(lattice_.T_map_grid.theta_rad);
   DomainComponent out_;
   bool on_map_ = false;
 };

@@ -6,7 +6,6 @@
 namespace landfall::internal {
 
 using kernels::block_cells;
-using kernels::tile_blocks;
 
 void BlockScorer::visit(const Node& node, int first_heading, int last_heading) {
   const BlockMask* listed = nullptr;
@@ -35,24 +34,36 @@ void BlockScorer::list_blocks(const Node& node, const BlockMask& mask) {
   }
 }
 
-// A single block is scored as fast as it is bounded. The best bound's block comes first: a good score
-// excludes others.
-void BlockScorer::visit_blocks(const Node& node, int heading) {
+void BlockScorer::dive(const Node& node, int heading) {
+  const SharedMask& mask = search_.query.domain.mask_of_heading[static_cast<std::size_t>(heading)];
+  if (mask == nullptr) return;
+  list_blocks(node, *mask);
   const HeadingCells& cells = search_.heading_cells->at(heading);
-  if (blocks_.size() == 1) return score(blocks_.front(), cells, heading, search_.lowest());
-  std::int32_t bounds[tile_blocks];
+  if (!blocks_.empty() && bound_blocks(node, cells)) score(blocks_.front(), cells, heading, search_.lowest());
+}
+
+bool BlockScorer::bound_blocks(const Node& node, const HeadingCells& cells) {
   bounds_computed += static_cast<std::int64_t>(blocks_.size());
   if (!kernels::bound_windows(search_.maxima, node.col * block_cells, node.row * block_cells,
                               cells.col.data(), cells.row.data(), index_.size(), search_.lowest(),
-                              counted_.data(), bounds))
-    return;
-  std::iter_swap(blocks_.begin(),
-                 std::max_element(blocks_.begin(), blocks_.end(), [&](const Block& a, const Block& b) {
-                   return bounds[a.bound] < bounds[b.bound];
-                 }));
+                              counted_.data(), bounds_.data()))
+    return false;
+  const auto best = std::max_element(blocks_.begin(), blocks_.end(), [&](const Block& a, const Block& b) {
+    return bounds_[a.bound] < bounds_[b.bound];
+  });
+  std::iter_swap(blocks_.begin(), best);
+  return true;
+}
+
+// A single block is scored as fast as it is bounded. Of several the best comes first, whose score may exclude
+// the others.
+void BlockScorer::visit_blocks(const Node& node, int heading) {
+  const HeadingCells& cells = search_.heading_cells->at(heading);
+  if (blocks_.size() == 1) return score(blocks_.front(), cells, heading, search_.lowest());
+  if (!bound_blocks(node, cells)) return;
   for (const Block& block : blocks_) {
     const std::int32_t lowest = search_.lowest();
-    if (bounds[block.bound] >= lowest) score(block, cells, heading, lowest);
+    if (bounds_[block.bound] >= lowest) score(block, cells, heading, lowest);
   }
 }
 

@@ -64,6 +64,8 @@ class BlockScorer {
 
   // A node's blocks at every heading of [first, last).
   void visit(const Node& node, int first_heading, int last_heading);
+  // Of a node's blocks at one heading that of the best bound alone, for its score.
+  void dive(const Node& node, int heading);
 
   std::vector<Candidate> candidates;
   std::int64_t bounds_computed = 0;
@@ -78,6 +80,8 @@ class BlockScorer {
   };
 
   void list_blocks(const Node& node, const BlockMask& mask);
+  // The block of the best bound comes first. False: none can reach the score that matters.
+  bool bound_blocks(const Node& node, const HeadingCells& cells);
   void visit_blocks(const Node& node, int heading);
   void score(const Block& block, const HeadingCells& cells, int heading, std::int32_t lowest);
 
@@ -85,6 +89,7 @@ class BlockScorer {
   std::vector<std::int32_t> index_;
   std::vector<Block> blocks_;  // of the node, with poses of the prior at the heading
   std::array<std::uint16_t, kernels::tile_blocks> counted_{};  // all ones where there is a block
+  std::array<std::int32_t, kernels::tile_blocks> bounds_{};
 };
 
 }  // namespace landfall::internal

@@ -30,6 +30,7 @@ class BranchAndBound {
   Proposal run() {
     if (query_.domain.poses <= few_poses) {
       take_all_blocks();
+      dive_into_each();
     } else {
       bound_and_collect();
     }
@@ -59,6 +60,16 @@ class BranchAndBound {
                           .group = static_cast<std::uint16_t>(group),
                           .row = static_cast<std::uint16_t>(layout.tiles[tile].row),
                           .col = static_cast<std::uint16_t>(layout.tiles[tile].col)});
+  }
+
+  // A pose near the best one, before others are scored.
+  void dive_into_each() {
+    BlockScorer scorer(search_);
+    for (const Node& node : nodes_) {
+      if (query_.out_of_time()) return;
+      scorer.dive(node, (groups_.first(node.group) + groups_.last(node.group)) / 2);
+    }
+    take_early(scorer);
   }
 
   [[nodiscard]] bool has_poses(int group) const {
@@ -114,10 +125,12 @@ class BranchAndBound {
       scorers[i] = std::make_unique<BlockScorer>(search_);
       for (std::size_t n = next++; n < nodes.size(); n = next++) visit(*scorers[i], nodes[n]);
     });
-    for (const auto& scorer : scorers) {
-      proposal_.counts.bounds_computed += scorer->bounds_computed;
-      early_candidates_.insert(early_candidates_.end(), scorer->candidates.begin(), scorer->candidates.end());
-    }
+    for (const auto& scorer : scorers) take_early(*scorer);
+  }
+
+  void take_early(const BlockScorer& scorer) {
+    proposal_.counts.bounds_computed += scorer.bounds_computed;
+    early_candidates_.insert(early_candidates_.end(), scorer.candidates.begin(), scorer.candidates.end());
   }
 
   void visit(BlockScorer& scorer, const Node& node) const {
