@@ -47,11 +47,35 @@ void FirstWindows(const WindowMaxima& maxima, int first_col, int first_row, cons
                                        maxima.height + WindowMaxima::pad_rows));
 }
 
+// The rows of blocks among which all counted ones are.
+struct RowRange {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+RowRange CountedRows(const std::uint16_t* HWY_RESTRICT counted) {
+  const auto any = [&](std::size_t row) {
+    std::uint16_t bits = 0;
+    for (std::size_t lane = 0; lane < sums_a_row; ++lane) bits |= counted[row * sums_a_row + lane];
+    return bits != 0;
+  };
+  RowRange rows{.first = 0, .count = sum_rows};
+  while (rows.count > 1 && !any(rows.first + rows.count - 1)) --rows.count;
+  for (; rows.count > 1 && !any(rows.first); --rows.count) ++rows.first;
+  return rows;
+}
+
 bool BoundWindows(const WindowMaxima& maxima, int first_col, int first_row, const std::int32_t* point_col,
                   const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
                   const std::uint16_t* counted, std::int32_t* bounds) {
   constexpr std::size_t points_per_look = 32;
-  const Rows rows{.bytes = maxima.window_max, .row_bytes = maxima.stride};
+  const RowRange range = CountedRows(counted);
+  const Rows rows{.bytes = maxima.window_max + static_cast<std::ptrdiff_t>(range.first) * maxima.stride,
+                  .row_bytes = maxima.stride};
+  const auto add_rows = range.count == 1   ? AddRows<1, 1>
+                        : range.count == 2 ? AddRows<1, 2>
+                        : range.count == 3 ? AddRows<1, 3>
+                                           : AddRows<1, 4>;
   HWY_ALIGN std::int32_t index[points_per_look];
   HWY_ALIGN std::uint16_t sums[row_sums] = {};
   std::int32_t flushed = 0;  // the largest bound's, so far
@@ -59,7 +83,7 @@ bool BoundWindows(const WindowMaxima& maxima, int first_col, int first_row, cons
   for (std::size_t i = 0; i < points;) {
     const std::size_t count = std::min(points_per_look, points - i);
     FirstWindows(maxima, first_col, first_row, point_col + i, point_row + i, count, index);
-    AddRows<1>(rows, index, count, sums);
+    add_rows(rows, index, count, sums + range.first * sums_a_row);
     i += count;
     const std::int64_t rest = 255 * static_cast<std::int64_t>(points - i);
     if (flushed + LargestSum(sums, counted) + rest < threshold) return false;

@@ -31,8 +31,8 @@ struct WindowMaxima {
 };
 
 // bounds[row * tile_cols + col]: the sum over all points of the windows' maxima, for the block that begins at
-// cell (first_col + 8 * col, first_row + 8 * row). False, bounds undefined, once no block whose `counted` is
-// all ones (the others' are 0) can reach `threshold`; it looks after every 32 points.
+// cell (first_col + 8 * col, first_row + 8 * row), where `counted` is all ones; undefined where it is 0.
+// False, all undefined, once no counted block can reach `threshold`; it looks after every 32 points.
 bool bound_windows(const WindowMaxima& maxima, int first_col, int first_row, const std::int32_t* point_col,
                    const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
                    const std::uint16_t* counted, std::int32_t* bounds);
