@@ -30,11 +30,6 @@ double density(const OdometrySigma& sigma, const StepOff& off) {
   return std::exp(-0.5 * (t * t + r * r)) / volume;
 }
 
-OdometrySigma with_pose_sigma(const OdometrySigma& sigma, const OdometryQuality& quality) {
-  return {.translation_m = std::hypot(quality.translation_factor * sigma.translation_m, pose_sigma_m),
-          .rotation_rad = std::hypot(quality.rotation_factor * sigma.rotation_rad, pose_sigma_rad)};
-}
-
 double step_density(const OdometrySigma& sigma, const OdometryQuality& quality, const StepOff& off) {
   return (1.0 - slip_share) * density(with_pose_sigma(sigma, quality), off) +
          slip_share * density(with_pose_sigma(sigma, {}), off);
@@ -87,6 +82,11 @@ double log_posterior(const std::vector<Neighbours>& pairs, const OdometryQuality
 }
 
 }  // namespace
+
+OdometrySigma with_pose_sigma(const OdometrySigma& sigma, const OdometryQuality& quality) {
+  return {.translation_m = std::hypot(quality.translation_factor * sigma.translation_m, pose_sigma_m),
+          .rotation_rad = std::hypot(quality.rotation_factor * sigma.rotation_rad, pose_sigma_rad)};
+}
 
 double log_step_density(const OdometryNoise& noise, const OdometryQuality& quality,
                         const Pose2& T_before_after, const StepOff& off) {

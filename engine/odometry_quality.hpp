@@ -27,6 +27,9 @@ inline StepOff step_off(const Pose2& T_map_before, const Pose2& T_map_after, con
           .rotation_rad = angle_distance(T_moved.theta_rad, T_before_after.theta_rad)};
 }
 
+// Odometry's uncertainty, as good as it proved, and that of a hypothesis together.
+OdometrySigma with_pose_sigma(const OdometrySigma& sigma, const OdometryQuality& quality);
+
 // Log density of a step that is so far off; hypotheses are themselves uncertain.
 double log_step_density(const OdometryNoise& noise, const OdometryQuality& quality,
                         const Pose2& T_before_after, const StepOff& off);

@@ -79,9 +79,7 @@ double SequenceModel::log_transition(const Hypothesis& before, const Hypothesis&
 }
 
 OdometrySigma SequenceModel::transition_sigma(const Pose2& T_before_after) const {
-  const OdometrySigma sigma = odometry_sigma(noise_, T_before_after);
-  return {.translation_m = std::hypot(quality_.translation_factor * sigma.translation_m, pose_sigma_m),
-          .rotation_rad = std::hypot(quality_.rotation_factor * sigma.rotation_rad, pose_sigma_rad)};
+  return with_pose_sigma(odometry_sigma(noise_, T_before_after), quality_);
 }
 
 SequenceModel::Extended SequenceModel::extend(std::span<const Hypothesis> before,

@@ -118,9 +118,7 @@ bool BoundVectors(const Run& run, bool inside, std::size_t first_byte, std::uint
       reinterpret_cast<const std::uint8_t*>(run.planes.column_of_4) + run_byte + first_byte;
   const auto largest_of = [&](const Sums& sum, std::size_t vector) HWY_ATTR {
     const std::size_t at = first_byte + vector * lanes;
-    // The last vectors may reach past the run.
-    const std::uint64_t allowed = at / tile_blocks < most_tiles ? run.allowed[at / tile_blocks] : 0;
-    return sum.largest(allowed, at % tile_blocks);
+    return sum.largest(run.allowed[at / tile_blocks], at % tile_blocks);
   };
   for (std::int32_t list = 0; list < points.lists; ++list) {
     const std::int32_t bit = points.lists - 1 - list;

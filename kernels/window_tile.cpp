@@ -40,11 +40,7 @@ void FirstWindows(const WindowMaxima& maxima, int first_col, int first_row, cons
         hn::Add(hn::Mul(hn::ShiftRight<block_shift>(row), stride), hn::ShiftRight<block_shift>(col));
     hn::StoreU(hn::Add(hn::Mul(phase, phase_size), block), d, index + i);
   }
-  for (; i < count; ++i)
-    index[i] = maxima.index(std::clamp(first_col + WindowMaxima::pad_cols + point_col[i], 0,
-                                       maxima.width + WindowMaxima::pad_cols),
-                            std::clamp(first_row + WindowMaxima::pad_rows + point_row[i], 0,
-                                       maxima.height + WindowMaxima::pad_rows));
+  for (; i < count; ++i) index[i] = maxima.tile_index(first_col + point_col[i], first_row + point_row[i]);
 }
 
 // The rows of blocks among which all counted ones are.
@@ -114,13 +110,8 @@ bool bound_windows(const WindowMaxima& maxima, int first_col, int first_row, con
   for (int lane = 0; lane < tile_blocks; ++lane) {
     std::int32_t sum = 0;
     for (std::size_t i = 0; i < points; ++i) {
-      // The tile is clamped as a whole.
-      const int col = std::clamp(first_col + point_col[i] + WindowMaxima::pad_cols, 0,
-                                 maxima.width + WindowMaxima::pad_cols);
-      const int row = std::clamp(first_row + point_row[i] + WindowMaxima::pad_rows, 0,
-                                 maxima.height + WindowMaxima::pad_rows);
-      sum += maxima.window_max[maxima.index(col + lane % tile_cols * block_cells,
-                                            row + lane / tile_cols * block_cells)];
+      const std::int32_t first = maxima.tile_index(first_col + point_col[i], first_row + point_row[i]);
+      sum += maxima.window_max[first + lane / tile_cols * maxima.stride + lane % tile_cols];
     }
     bounds[lane] = sum;
     if (counted[lane] != 0) largest = std::max(largest, sum);

@@ -2,6 +2,7 @@
 // fall into.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,6 +28,12 @@ struct WindowMaxima {
     constexpr std::int32_t mask = block_cells - 1;
     const std::int32_t phase = (padded_row & mask) * block_cells + (padded_col & mask);
     return phase * phase_size + padded_row / block_cells * stride + padded_col / block_cells;
+  }
+  // Of the window that begins at a cell of the map, wherever; that of the block `col` to the right and `row`
+  // upwards is col + row * stride elements on. A tile off the map gets elements that are empty.
+  [[nodiscard]] std::int32_t tile_index(std::int32_t col, std::int32_t row) const {
+    return index(std::clamp(col + pad_cols, 0, width + pad_cols),
+                 std::clamp(row + pad_rows, 0, height + pad_rows));
   }
 };
 

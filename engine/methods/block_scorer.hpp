@@ -26,13 +26,20 @@ class HeadingCellsOnDemand {
 
   const HeadingCells& at(int heading) {
     const auto k = static_cast<std::size_t>(heading);
-    if (state_[k].load(std::memory_order_acquire) == State::ready) return cells_[k];
-    State expected = State::none;
-    if (state_[k].compare_exchange_strong(expected, State::under_way, std::memory_order_acquire)) {
-      cells_at_heading(points_, lattice_, heading, cells_[k]);
+    while (state_[k].load(std::memory_order_acquire) != State::ready) {
+      State expected = State::none;
+      if (!state_[k].compare_exchange_strong(expected, State::under_way, std::memory_order_acquire)) {
+        std::this_thread::yield();
+        continue;
+      }
+      try {
+        cells_at_heading(points_, lattice_, heading, cells_[k]);
+      } catch (...) {
+        state_[k].store(State::none, std::memory_order_release);  // nobody shall wait for ever
+        throw;
+      }
       state_[k].store(State::ready, std::memory_order_release);
     }
-    while (state_[k].load(std::memory_order_acquire) != State::ready) std::this_thread::yield();
     return cells_[k];
   }
 

@@ -18,14 +18,10 @@ EndPoints most_telling_first(const EndPoints& points, SharedSearch& search, cons
     const HeadingCells& cells =
         search.heading_cells->at((groups.first(node.group) + groups.last(node.group)) / 2);
     const int lane = std::countr_zero(node.lanes);
-    const int col = (node.col + kernels::lane_col(lane)) * block_cells + kernels::WindowMaxima::pad_cols;
-    const int row = (node.row + kernels::lane_row(lane)) * block_cells + kernels::WindowMaxima::pad_rows;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const std::int32_t index =
-          maxima.index(std::clamp(col + cells.col[p], 0, maxima.width + kernels::WindowMaxima::pad_cols),
-                       std::clamp(row + cells.row[p], 0, maxima.height + kernels::WindowMaxima::pad_rows));
-      seen[p] += maxima.window_max[index];
-    }
+    const int col = (node.col + kernels::lane_col(lane)) * block_cells;
+    const int row = (node.row + kernels::lane_row(lane)) * block_cells;
+    for (std::size_t p = 0; p < points.size(); ++p)
+      seen[p] += maxima.window_max[maxima.tile_index(col + cells.col[p], row + cells.row[p])];
   }
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

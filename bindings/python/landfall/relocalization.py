@@ -157,7 +157,7 @@ def tie_together(answers: Answers, log: Sequence[Scan], question: Question) -> N
 
 
 def _next_size(size: int, took_s: float) -> int:
-    """More while a chunk is quick, half as many when it is slow. At its end threads wait for the last."""
+    """Twice as many while a chunk is quick, half as many when it is slow."""
     if took_s < CHUNK_S / 2:
-        return min((8 if took_s < CHUNK_S / 16 else 2) * size, MAX_CHUNK)
+        return min(2 * size, MAX_CHUNK)
     return max(size // 2, 1) if took_s > 2 * CHUNK_S else size
