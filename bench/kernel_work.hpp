@@ -128,7 +128,6 @@ struct OfficeScan {
       internal::make_window_tables(map.field(), lattice.width_cells, lattice.height_cells);
   std::vector<internal::HeadingCells> cells;  // [view]
   Integers block_col, block_row;              // [view]
-  std::vector<Integers> index;                // [view]: of window_indices
 
   OfficeScan() {
     const auto sensor = std::make_shared<const Sensor>(
@@ -141,42 +140,22 @@ struct OfficeScan {
       internal::cells_at_heading(points, lattice, view * lattice.headings / views, cells.back());
       block_col.push_back(8 * random.between(0, lattice.width_cells / 8 - 1));
       block_row.push_back(8 * random.between(0, lattice.height_cells / 8 - 1));
-      index.emplace_back(points.size());
-      kernels::scalar::window_indices(tables.planes(), block_col.back(), block_row.back(),
-                                      cells.back().col.data(), cells.back().row.data(), points.size(),
-                                      index.back().data());
     }
   }
 };
 using SharedScan = std::shared_ptr<const OfficeScan>;
-
-inline Work window_indices_work(const SharedScan& scan) {
-  const std::size_t points = scan->points.size();
-  return {.name = "window_indices",
-          .unit = "points/s",
-          .units_per_run = static_cast<double>(OfficeScan::views * points),
-          .run = [scan, points](bool twin, Answers& answers) {
-            answers.numbers.resize(OfficeScan::views * points);
-            const auto indices = twin ? kernels::scalar::window_indices : kernels::window_indices;
-            for (std::size_t v = 0; v < OfficeScan::views; ++v)
-              indices(scan->tables.planes(), scan->block_col[v], scan->block_row[v],
-                      scan->cells[v].col.data(), scan->cells[v].row.data(), points,
-                      answers.numbers.data() + v * points);
-          }};
-}
 
 // No threshold: every point is looked at.
 inline Work bound_windows_work(const SharedScan& scan) {
   return {.name = "bound_windows",
           .unit = "blocks/s",
           .units_per_run = 1.0 * OfficeScan::views * kernels::tile_blocks,
-          .run = [scan, counted = std::vector<std::uint16_t>(kernels::tile_blocks, 0xFFFF)](
-                     bool twin, Answers& answers) {
+          .run = [scan](bool twin, Answers& answers) {
             answers.numbers.resize(OfficeScan::views * kernels::tile_blocks);
             const auto bound = twin ? kernels::scalar::bound_windows : kernels::bound_windows;
             for (std::size_t v = 0; v < OfficeScan::views; ++v)
               bound(scan->tables.maxima(), scan->block_col[v], scan->block_row[v], scan->cells[v].col.data(),
-                    scan->cells[v].row.data(), scan->points.size(), 0, counted.data(),
+                    scan->cells[v].row.data(), scan->points.size(), 0, ~std::uint64_t{0},
                     answers.numbers.data() + v * kernels::tile_blocks);
           }};
 }
@@ -189,7 +168,8 @@ inline Work score_block_work(const SharedScan& scan) {
             answers.numbers.resize(OfficeScan::views * kernels::block_poses);
             const auto score = twin ? kernels::scalar::score_block : kernels::score_block;
             for (std::size_t v = 0; v < OfficeScan::views; ++v)
-              score(scan->tables.planes(), scan->index[v].data(), scan->index[v].size(), 0,
+              score(scan->tables.planes(), scan->block_col[v], scan->block_row[v], scan->cells[v].col.data(),
+                    scan->cells[v].row.data(), scan->points.size(), 0,
                     answers.numbers.data() + v * kernels::block_poses);
           }};
 }
@@ -234,7 +214,6 @@ inline std::vector<Work> all_work() {
   all.push_back(bound_tile_work("24KB", 1, 100, 60));
   all.push_back(bound_tile_work("1.6MB", 20, 220, 100));
   all.push_back(bound_tile_work("32MB", 20, 740, 535));
-  all.push_back(window_indices_work(scan));
   all.push_back(bound_windows_work(scan));
   all.push_back(score_block_work(scan));
   all.push_back(score_row_work(scan));

@@ -15,8 +15,9 @@ namespace landfall::kernels {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// index[i]: where the window of point i begins.
 void WindowIndices(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
-                   const std::int32_t* point_row, std::size_t points, std::int32_t* index) {
+                   const std::int32_t* point_row, std::size_t count, std::int32_t* HWY_RESTRICT index) {
   const hn::ScalableTag<std::int32_t> d;
   const std::size_t lanes = hn::Lanes(d);
   const auto zero = hn::Zero(d);
@@ -25,29 +26,34 @@ void WindowIndices(const WindowPlanes& planes, int col, int row, const std::int3
   const auto last_col = hn::Set(d, planes.width + block_cells);
   const auto last_row = hn::Set(d, planes.height + block_cells);
   const auto stride = hn::Set(d, planes.stride);
-  std::size_t i = 0;
-  for (; i + lanes <= points; i += lanes) {
+  const auto find = [&](std::size_t i) HWY_ATTR {
     const auto x = hn::Min(last_col, hn::Max(zero, hn::Add(first_col, hn::LoadU(d, point_col + i))));
     const auto y = hn::Min(last_row, hn::Max(zero, hn::Add(first_row, hn::LoadU(d, point_row + i))));
     hn::StoreU(hn::Add(hn::Mul(y, stride), x), d, index + i);
-  }
-  scalar::window_indices(planes, col, row, point_col + i, point_row + i, points - i, index + i);
+  };
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) find(i);
+  if (i < count && count >= lanes) return find(count - lanes);
+  for (; i < count; ++i) index[i] = planes.index(col + point_col[i], row + point_row[i]);
 }
 
 // Two rows x eight columns stand in columns of two: lane 2 * col + row.
 constexpr std::size_t pair_poses = sums_a_row;
 
-bool ScoreBlock(const WindowPlanes& planes, const std::int32_t* index, std::size_t points,
-                std::int32_t threshold, std::int32_t* scores) {
+bool ScoreBlock(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
+                const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
+                std::int32_t* scores) {
   constexpr std::size_t points_per_look = 32;
   const Rows pairs{.bytes = reinterpret_cast<const std::uint8_t*>(planes.column_of_2),
                    .row_bytes = 4 * static_cast<std::ptrdiff_t>(planes.stride)};
+  HWY_ALIGN std::int32_t index[points_per_look];
   HWY_ALIGN std::uint16_t sums[block_poses] = {};
   HWY_ALIGN std::int32_t totals[block_poses] = {};
   std::int32_t largest_total = 0;
   for (std::size_t i = 0; i < points;) {
     const std::size_t count = std::min(points_per_look, points - i);
-    AddRows<2>(pairs, index + i, count, sums);
+    WindowIndices(planes, col, row, point_col + i, point_row + i, count, index);
+    AddRows<2>(pairs, index, count, sums);
     i += count;
     const std::int64_t rest = 255 * static_cast<std::int64_t>(points - i);
     if (largest_total + LargestSum(sums) + rest < threshold) return false;
@@ -60,9 +66,9 @@ bool ScoreBlock(const WindowPlanes& planes, const std::int32_t* index, std::size
     }
   }
   if (largest_total < threshold) return false;
-  for (int row = 0; row < block_cells; ++row)
-    for (int col = 0; col < block_cells; ++col)
-      scores[row * block_cells + col] = totals[row / 2 * static_cast<int>(pair_poses) + 2 * col + row % 2];
+  for (int r = 0; r < block_cells; ++r)
+    for (int c = 0; c < block_cells; ++c)
+      scores[r * block_cells + c] = totals[r / 2 * static_cast<int>(pair_poses) + 2 * c + r % 2];
   return true;
 }
 
@@ -75,25 +81,18 @@ namespace landfall::kernels {
 
 namespace scalar {
 
-void window_indices(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
-                    const std::int32_t* point_row, std::size_t points, std::int32_t* index) {
-  for (std::size_t i = 0; i < points; ++i) {
-    const int x = std::clamp(col + block_cells + point_col[i], 0, planes.width + block_cells);
-    const int y = std::clamp(row + block_cells + point_row[i], 0, planes.height + block_cells);
-    index[i] = y * planes.stride + x;
-  }
-}
-
-bool score_block(const WindowPlanes& planes, const std::int32_t* index, std::size_t points,
-                 std::int32_t threshold, std::int32_t* scores) {
+bool score_block(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
+                 const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
+                 std::int32_t* scores) {
   std::int32_t largest = 0;
-  for (int row = 0; row < block_cells; ++row) {
-    for (int col = 0; col < block_cells; ++col) {
+  for (int r = 0; r < block_cells; ++r) {
+    for (int c = 0; c < block_cells; ++c) {
       std::int32_t sum = 0;
       for (std::size_t i = 0; i < points; ++i) {
-        sum += static_cast<std::int32_t>(planes.column_of_2[index[i] + row * planes.stride + col] & 255U);
+        const std::int32_t first = planes.index(col + point_col[i], row + point_row[i]);
+        sum += static_cast<std::int32_t>(planes.column_of_2[first + r * planes.stride + c] & 255U);
       }
-      scores[row * block_cells + col] = sum;
+      scores[r * block_cells + c] = sum;
       largest = std::max(largest, sum);
     }
   }
@@ -102,22 +101,13 @@ bool score_block(const WindowPlanes& planes, const std::int32_t* index, std::siz
 
 }  // namespace scalar
 
-HWY_EXPORT(WindowIndices);
 HWY_EXPORT(ScoreBlock);
 
-void window_indices(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
-                    const std::int32_t* point_row, std::size_t points, std::int32_t* index) {
-  if (scalar_selected()) {
-    scalar::window_indices(planes, col, row, point_col, point_row, points, index);
-  } else {
-    HWY_DYNAMIC_DISPATCH(WindowIndices)(planes, col, row, point_col, point_row, points, index);
-  }
-}
-
-bool score_block(const WindowPlanes& planes, const std::int32_t* index, std::size_t points,
-                 std::int32_t threshold, std::int32_t* scores) {
-  return scalar_selected() ? scalar::score_block(planes, index, points, threshold, scores)
-                           : HWY_DYNAMIC_DISPATCH(ScoreBlock)(planes, index, points, threshold, scores);
+bool score_block(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
+                 const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
+                 std::int32_t* scores) {
+  const auto score = scalar_selected() ? scalar::score_block : HWY_DYNAMIC_DISPATCH(ScoreBlock);
+  return score(planes, col, row, point_col, point_row, points, threshold, scores);
 }
 
 }  // namespace landfall::kernels

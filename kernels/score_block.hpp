@@ -1,6 +1,7 @@
 // Leaves of the search: blocks of 8 x 8 poses at one heading.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,23 +18,24 @@ struct WindowPlanes {
   std::int32_t stride = 0;                     // elements a row
   std::int32_t width = 0;                      // of the field
   std::int32_t height = 0;
+
+  // Of the window that begins at a cell of the field, wherever; one off the map is empty.
+  [[nodiscard]] std::int32_t index(std::int32_t col, std::int32_t row) const {
+    return std::clamp(row + block_cells, 0, height + block_cells) * stride +
+           std::clamp(col + block_cells, 0, width + block_cells);
+  }
 };
 
-// index[i]: the element where the window of point i begins, for the block whose
-// lower-left cell is (row, col); windows off the map get an element whose window is empty.
-void window_indices(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
-                    const std::int32_t* point_row, std::size_t points, std::int32_t* index);
-
-// The block's 64 scores, exactly. scores[row * 8 + col]. False, scores undefined, once none can
-// reach `threshold`; it looks after every 32 points.
-bool score_block(const WindowPlanes& planes, const std::int32_t* index, std::size_t points,
-                 std::int32_t threshold, std::int32_t* scores);
+// The 64 scores of the block whose lower-left cell is (row, col), exactly. scores[row * 8 + col]. False,
+// scores undefined, once none can reach `threshold`; it looks after every 32 points.
+bool score_block(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
+                 const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
+                 std::int32_t* scores);
 
 namespace scalar {
-void window_indices(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
-                    const std::int32_t* point_row, std::size_t points, std::int32_t* index);
-bool score_block(const WindowPlanes& planes, const std::int32_t* index, std::size_t points,
-                 std::int32_t threshold, std::int32_t* scores);
-}  // namespace scalar
+bool score_block(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
+                 const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
+                 std::int32_t* scores);
+}
 
 }  // namespace landfall::kernels

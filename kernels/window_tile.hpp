@@ -37,17 +37,21 @@ struct WindowMaxima {
   }
 };
 
+// Bit row * tile_cols + col of every block of a tile whose bit tile_lane(col, row) is set.
+std::uint64_t row_by_row(std::uint64_t lanes);
+
 // bounds[row * tile_cols + col]: the sum over all points of the windows' maxima, for the block that begins at
-// cell (first_col + 8 * col, first_row + 8 * row), where `counted` is all ones; undefined where it is 0.
-// False, all undefined, once no counted block can reach `threshold`; it looks after every 32 points.
-bool bound_windows(const WindowMaxima& maxima, int first_col, int first_row, const std::int32_t* point_col,
-                   const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
-                   const std::uint16_t* counted, std::int32_t* bounds);
+// cell (first_col + 8 * col, first_row + 8 * row). `blocks` has a bit, row * tile_cols + col, for each that
+// is asked for. Returns the bits of those whose bound reaches `threshold`; of the others bounds are
+// undefined. It looks after every 32 points whether any still can.
+std::uint64_t bound_windows(const WindowMaxima& maxima, int first_col, int first_row,
+                            const std::int32_t* point_col, const std::int32_t* point_row, std::size_t points,
+                            std::int32_t threshold, std::uint64_t blocks, std::int32_t* bounds);
 
 namespace scalar {
-bool bound_windows(const WindowMaxima& maxima, int first_col, int first_row, const std::int32_t* point_col,
-                   const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
-                   const std::uint16_t* counted, std::int32_t* bounds);
+std::uint64_t bound_windows(const WindowMaxima& maxima, int first_col, int first_row,
+                            const std::int32_t* point_col, const std::int32_t* point_row, std::size_t points,
+                            std::int32_t threshold, std::uint64_t blocks, std::int32_t* bounds);
 }
 
 }  // namespace landfall::kernels

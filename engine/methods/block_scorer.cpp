@@ -7,73 +7,105 @@ namespace landfall::internal {
 
 using kernels::block_cells;
 
-void BlockScorer::visit(const Node& node, int first_heading, int last_heading) {
-  const BlockMask* listed = nullptr;
-  for (int heading = first_heading; heading < last_heading; ++heading) {
-    const BlockMask* mask = search_.query.domain.mask_of_heading[static_cast<std::size_t>(heading)].get();
-    if (mask == nullptr) continue;
-    if (mask != listed) list_blocks(node, *mask);
-    listed = mask;
-    if (!blocks_.empty()) visit_blocks(node, heading);
-  }
+namespace {
+
+int row_of(const Node& node, int block) {
+  return node.row + block / kernels::tile_cols;
+}
+int col_of(const Node& node, int block) {
+  return node.col + block % kernels::tile_cols;
 }
 
-void BlockScorer::list_blocks(const Node& node, const BlockMask& mask) {
-  blocks_.clear();
-  counted_.fill(0);
-  for (std::uint64_t lanes = node.lanes; lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    const int col = kernels::lane_col(lane);
-    const int row = kernels::lane_row(lane);
-    const std::uint64_t allowed = mask.at(node.col + col, node.row + row);
-    if (allowed == 0) continue;
-    const std::size_t bound =
-        static_cast<std::size_t>(row) * kernels::tile_cols + static_cast<std::size_t>(col);
-    blocks_.push_back({.row = node.row + row, .col = node.col + col, .bound = bound, .allowed = allowed});
-    counted_[bound] = 0xFFFF;
+}  // namespace
+
+void BlockScorer::visit(const Node& node, int first_heading, int last_heading, int but) {
+  const std::uint64_t blocks = kernels::row_by_row(node.lanes);
+  for (int heading = first_heading; heading < last_heading; ++heading) {
+    const BlockMask* mask = mask_at(heading);
+    if (mask != nullptr && heading != but) visit_blocks(node, blocks, heading, *mask);
   }
 }
 
 void BlockScorer::dive(const Node& node, int heading) {
-  const SharedMask& mask = search_.query.domain.mask_of_heading[static_cast<std::size_t>(heading)];
+  const BlockMask* mask = mask_at(heading);
   if (mask == nullptr) return;
-  list_blocks(node, *mask);
-  const HeadingCells& cells = search_.heading_cells->at(heading);
-  if (!blocks_.empty() && bound_blocks(node, cells)) score(blocks_.front(), cells, heading, search_.lowest());
+  const std::uint64_t reaching =
+      bound_blocks(node, kernels::row_by_row(node.lanes), search_.heading_cells->at(heading));
+  if (reaching == 0) return;
+  const int best = best_of(reaching);
+  score(row_of(node, best), col_of(node, best), heading, *mask, search_.lowest());
 }
 
-bool BlockScorer::bound_blocks(const Node& node, const HeadingCells& cells) {
-  bounds_computed += static_cast<std::int64_t>(blocks_.size());
-  if (!kernels::bound_windows(search_.maxima, node.col * block_cells, node.row * block_cells,
-                              cells.col.data(), cells.row.data(), index_.size(), search_.lowest(),
-                              counted_.data(), bounds_.data()))
-    return false;
-  const auto best = std::max_element(blocks_.begin(), blocks_.end(), [&](const Block& a, const Block& b) {
-    return bounds_[a.bound] < bounds_[b.bound];
-  });
-  std::iter_swap(blocks_.begin(), best);
-  return true;
+std::uint64_t BlockScorer::bound_blocks(const Node& node, std::uint64_t blocks, const HeadingCells& cells) {
+  bounds_computed += std::popcount(blocks);
+  return kernels::bound_windows(search_.maxima, node.col * block_cells, node.row * block_cells,
+                                cells.col.data(), cells.row.data(), cells.col.size(), search_.lowest(),
+                                blocks, bounds_.data());
+}
+
+int BlockScorer::best_of(std::uint64_t blocks) const {
+  int best = std::countr_zero(blocks);
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = std::countr_zero(blocks);
+    if (bounds_[static_cast<std::size_t>(block)] > bounds_[static_cast<std::size_t>(best)]) best = block;
+  }
+  return best;
 }
 
 // A single block is scored as fast as it is bounded. Of several the best comes first, whose score may exclude
 // the others.
-void BlockScorer::visit_blocks(const Node& node, int heading) {
-  const HeadingCells& cells = search_.heading_cells->at(heading);
-  if (blocks_.size() == 1) return score(blocks_.front(), cells, heading, search_.lowest());
-  if (!bound_blocks(node, cells)) return;
-  for (const Block& block : blocks_) {
+void BlockScorer::visit_blocks(const Node& node, std::uint64_t blocks, int heading, const BlockMask& mask) {
+  const auto visit = [&](int block, std::int32_t lowest) {
+    score(row_of(node, block), col_of(node, block), heading, mask, lowest);
+  };
+  if (std::has_single_bit(blocks)) return visit(std::countr_zero(blocks), search_.lowest());
+  std::uint64_t reaching = bound_blocks(node, blocks, search_.heading_cells->at(heading));
+  if (reaching == 0) return;
+  const int best = best_of(reaching);
+  visit(best, search_.lowest());
+  reaching &= ~(std::uint64_t{1} << best);
+  for (; reaching != 0; reaching &= reaching - 1) {
+    const int block = std::countr_zero(reaching);
     const std::int32_t lowest = search_.lowest();
-    if (bounds_[block.bound] >= lowest) score(block, cells, heading, lowest);
+    if (bounds_[static_cast<std::size_t>(block)] >= lowest) visit(block, lowest);
   }
 }
 
-void BlockScorer::score(const Block& block, const HeadingCells& cells, int heading, std::int32_t lowest) {
+void BlockScorer::bound(const Node& node, int heading) {
+  const BlockMask* mask = mask_at(heading);
+  if (mask == nullptr) return;
+  std::uint64_t reaching =
+      bound_blocks(node, kernels::row_by_row(node.lanes), search_.heading_cells->at(heading));
+  if (reaching == 0) return;
+  best_bound_ = std::max(best_bound_, bounds_[static_cast<std::size_t>(best_of(reaching))]);
+  for (; reaching != 0; reaching &= reaching - 1) {
+    const int block = std::countr_zero(reaching);
+    const std::int32_t bound = bounds_[static_cast<std::size_t>(block)];
+    const std::int32_t lowest = search_.lowest();
+    if (bound < lowest) continue;
+    if (2 * bound >= lowest + best_bound_)
+      score(row_of(node, block), col_of(node, block), heading, *mask, lowest);
+    else
+      pending.push_back(
+          {.bound = bound, .heading = heading, .row = row_of(node, block), .col = col_of(node, block)});
+  }
+}
+
+void BlockScorer::score(const PendingBlock& block) {
+  const std::int32_t lowest = search_.lowest();
+  if (block.bound >= lowest) score(block.row, block.col, block.heading, *mask_at(block.heading), lowest);
+}
+
+void BlockScorer::score(int row, int col, int heading, const BlockMask& mask, std::int32_t lowest) {
+  const std::uint64_t allowed = mask.at(col, row);
+  if (allowed == 0) return;
+  const HeadingCells& cells = search_.heading_cells->at(heading);
   std::int32_t scores[kernels::block_poses];
-  poses_scored += std::popcount(block.allowed);
-  kernels::window_indices(search_.planes, block.col * block_cells, block.row * block_cells, cells.col.data(),
-                          cells.row.data(), index_.size(), index_.data());
-  if (!kernels::score_block(search_.planes, index_.data(), index_.size(), lowest, scores)) return;
-  const Candidate candidate = best_of_block(scores, block.allowed, heading, block.row, block.col);
+  poses_scored += std::popcount(allowed);
+  if (!kernels::score_block(search_.planes, col * block_cells, row * block_cells, cells.col.data(),
+                            cells.row.data(), cells.col.size(), lowest, scores))
+    return;
+  const Candidate candidate = best_of_block(scores, allowed, heading, row, col);
   if (candidate.score < lowest) return;
   candidates.push_back(candidate);
   search_.best.raise(candidate.score);

@@ -65,37 +65,44 @@ struct SharedSearch {
   [[nodiscard]] std::int32_t lowest() const { return lowest_rival(best.get(), margin); }
 };
 
+// A block at one heading that has been bounded and not yet scored.
+struct PendingBlock {
+  std::int32_t bound;
+  std::int32_t heading;
+  std::int32_t row;
+  std::int32_t col;
+};
+
 class BlockScorer {
  public:
-  explicit BlockScorer(SharedSearch& search) : search_(search), index_(search.query.points.size()) {}
+  explicit BlockScorer(SharedSearch& search) : search_(search) {}
 
-  // A node's blocks at every heading of [first, last).
-  void visit(const Node& node, int first_heading, int last_heading);
+  // A node's blocks at every heading of [first, last) but one.
+  void visit(const Node& node, int first_heading, int last_heading, int but = -1);
+  // A node's blocks at one heading, bounded. Of those that may reach the score that matters the most
+  // promising are scored, the others wait in `pending`.
+  void bound(const Node& node, int heading);
+  void score(const PendingBlock& block);
   // Of a node's blocks at one heading that of the best bound alone, for its score.
   void dive(const Node& node, int heading);
 
+  std::vector<PendingBlock> pending;
   std::vector<Candidate> candidates;
   std::int64_t bounds_computed = 0;
   std::int64_t poses_scored = 0;
 
  private:
-  struct Block {
-    int row;
-    int col;
-    std::size_t bound;      // among those of bound_windows
-    std::uint64_t allowed;  // poses
-  };
-
-  void list_blocks(const Node& node, const BlockMask& mask);
-  // The block of the best bound comes first. False: none can reach the score that matters.
-  bool bound_blocks(const Node& node, const HeadingCells& cells);
-  void visit_blocks(const Node& node, int heading);
-  void score(const Block& block, const HeadingCells& cells, int heading, std::int32_t lowest);
+  // Blocks of the node at one heading that may reach the score that matters; bits row * tile_cols + col.
+  std::uint64_t bound_blocks(const Node& node, std::uint64_t blocks, const HeadingCells& cells);
+  [[nodiscard]] int best_of(std::uint64_t blocks) const;
+  void visit_blocks(const Node& node, std::uint64_t blocks, int heading, const BlockMask& mask);
+  void score(int row, int col, int heading, const BlockMask& mask, std::int32_t lowest);
+  [[nodiscard]] const BlockMask* mask_at(int heading) const {
+    return search_.query.domain.mask_of_heading[static_cast<std::size_t>(heading)].get();
+  }
 
   SharedSearch& search_;
-  std::vector<std::int32_t> index_;
-  std::vector<Block> blocks_;  // of the node, with poses of the prior at the heading
-  std::array<std::uint16_t, kernels::tile_blocks> counted_{};  // all ones where there is a block
+  std::int32_t best_bound_ = 0;  // of those that bound() has seen
   std::array<std::int32_t, kernels::tile_blocks> bounds_{};
 };
 

@@ -67,7 +67,7 @@ class BranchAndBound {
     BlockScorer scorer(search_);
     for (const Node& node : nodes_) {
       if (query_.out_of_time()) return;
-      scorer.dive(node, (groups_.first(node.group) + groups_.last(node.group)) / 2);
+      scorer.dive(node, middle(node.group));
     }
     take_early(scorer);
   }
@@ -137,23 +137,63 @@ class BranchAndBound {
     scorer.visit(node, groups_.first(node.group), groups_.last(node.group));
   }
 
-  void score_survivors() {
+  // Nodes come best first: once one is excluded, so is the rest.
+  [[nodiscard]] bool is_excluded(const Node& node) const {
+    return node.bound < std::min<std::int64_t>(no_bound, table_units(search_.lowest()));
+  }
+
+  [[nodiscard]] int middle(int group) const { return (groups_.first(group) + groups_.last(group)) / 2; }
+
+  // Calls visit(scorer, node) until nodes are excluded.
+  template <class Visit>
+  void for_each_node(std::vector<std::unique_ptr<BlockScorer>>& scorers, const Visit& visit) {
     constexpr std::size_t nodes_per_turn = 2;
-    const auto turns = static_cast<int>(nodes_.size() / nodes_per_turn) + 1;
-    std::vector<std::unique_ptr<BlockScorer>> scorers(
-        static_cast<std::size_t>(std::min(thread_count(query_.threads), turns)));
     std::atomic<std::size_t> next{0};
     parallel_for(scorers.size(), query_.threads, [&](std::size_t i) {
-      scorers[i] = std::make_unique<BlockScorer>(search_);
+      if (scorers[i] == nullptr) scorers[i] = std::make_unique<BlockScorer>(search_);
       while (!query_.out_of_time()) {
         const std::size_t first = next.fetch_add(nodes_per_turn);
-        // Nodes come best first: once one is excluded, so is the rest.
-        if (first >= nodes_.size() ||
-            nodes_[first].bound < std::min<std::int64_t>(no_bound, table_units(search_.lowest())))
-          return;
+        if (first >= nodes_.size() || is_excluded(nodes_[first])) return;
         const std::size_t last = std::min(nodes_.size(), first + nodes_per_turn);
         for (std::size_t n = first; n < last; ++n) visit(*scorers[i], nodes_[n]);
       }
+    });
+  }
+
+  // Where many nodes survive, bounds for groups of headings tell little. Bounds at the middle heading of each
+  // tell more: the blocks that are best by them mostly hold the best pose, whose score spares other headings.
+  void score_middle_headings(std::vector<std::unique_ptr<BlockScorer>>& scorers) {
+    constexpr std::size_t blocks_per_turn = 16;
+    constexpr std::size_t best_first = 256;
+    for_each_node(scorers,
+                  [&](BlockScorer& scorer, const Node& node) { scorer.bound(node, middle(node.group)); });
+    std::vector<PendingBlock> pending;
+    for (const auto& scorer : scorers)
+      pending.insert(pending.end(), scorer->pending.begin(), scorer->pending.end());
+    const auto middle = pending.begin() + static_cast<std::ptrdiff_t>(std::min(best_first, pending.size()));
+    // The rest stay as they were found, neighbours beside each other.
+    std::partial_sort(pending.begin(), middle, pending.end(),
+                      [](const PendingBlock& a, const PendingBlock& b) { return a.bound > b.bound; });
+    std::atomic<std::size_t> next{0};
+    parallel_for(scorers.size(), query_.threads, [&](std::size_t i) {
+      while (!query_.out_of_time()) {
+        const std::size_t first = next.fetch_add(blocks_per_turn);
+        if (first >= pending.size()) return;
+        const std::size_t last = std::min(pending.size(), first + blocks_per_turn);
+        for (std::size_t n = first; n < last; ++n) scorers[i]->score(pending[n]);
+      }
+    });
+  }
+
+  void score_survivors() {
+    const auto most_scorers = static_cast<int>(nodes_.size() / 2) + 1;
+    std::vector<std::unique_ptr<BlockScorer>> scorers(
+        static_cast<std::size_t>(std::min(thread_count(query_.threads), most_scorers)));
+    const bool middle_first = nodes_.size() > few_nodes;
+    if (middle_first) score_middle_headings(scorers);
+    for_each_node(scorers, [&](BlockScorer& scorer, const Node& node) {
+      scorer.visit(node, groups_.first(node.group), groups_.last(node.group),
+                   middle_first ? middle(node.group) : -1);
     });
     for (const auto& scorer : scorers) {
       proposal_.candidates.insert(proposal_.candidates.end(), scorer->candidates.begin(),

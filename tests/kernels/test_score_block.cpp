@@ -34,11 +34,10 @@ struct Block {
         point_col(random.integers(static_cast<std::size_t>(points), -width - 20, width + 20)),
         point_row(random.integers(static_cast<std::size_t>(points), -height - 20, height + 20)) {}
 
-  [[nodiscard]] Integers indices() const {
-    Integers index(point_col.size());
-    kernels::window_indices(tables.planes(), col, row, point_col.data(), point_row.data(), index.size(),
-                            index.data());
-    return index;
+  template <class Kernel>
+  bool run(const Kernel& kernel, std::int32_t threshold, Scores& scores) const {
+    return kernel(tables.planes(), col, row, point_col.data(), point_row.data(), point_col.size(), threshold,
+                  scores.data());
   }
   [[nodiscard]] std::int32_t field_at(int c, int r) const {
     if (c < 0 || c >= width || r < 0 || r >= height) return 0;
@@ -61,24 +60,12 @@ class ScoreBlock : public ::testing::TestWithParam<std::string> {
   testing::RandomField random_{3};
 };
 
-TEST_P(ScoreBlock, WindowIndicesEqualTheirTwin) {
-  for (const int points : testing::point_counts) {
-    const Block block(random_, points);
-    Integers expected(block.point_col.size());
-    kernels::scalar::window_indices(block.tables.planes(), block.col, block.row, block.point_col.data(),
-                                    block.point_row.data(), expected.size(), expected.data());
-    EXPECT_EQ(block.indices(), expected) << points;
-  }
-}
-
 TEST_P(ScoreBlock, ScoresEqualTheField) {
   for (const int points : testing::point_counts) {
     const Block block(random_, points);
-    const Integers index = block.indices();
     Scores scores{}, twin{};
-    ASSERT_TRUE(kernels::score_block(block.tables.planes(), index.data(), index.size(), 0, scores.data()));
-    ASSERT_TRUE(
-        kernels::scalar::score_block(block.tables.planes(), index.data(), index.size(), 0, twin.data()));
+    ASSERT_TRUE(block.run(kernels::score_block, 0, scores));
+    ASSERT_TRUE(block.run(kernels::scalar::score_block, 0, twin));
     EXPECT_EQ(scores, block.scores()) << points;
     EXPECT_EQ(twin, block.scores()) << points;
   }
@@ -87,20 +74,16 @@ TEST_P(ScoreBlock, ScoresEqualTheField) {
 TEST_P(ScoreBlock, GivesUpOnlyWhereNoPoseReachesTheThreshold) {
   for (const int points : testing::point_counts) {
     const Block block(random_, points);
-    const Integers index = block.indices();
     const Scores expected = block.scores();
     const std::int32_t largest = *std::max_element(expected.begin(), expected.end());
     for (const std::int32_t threshold : {1, largest / 2, largest - 1, largest}) {
       Scores scores{};
-      ASSERT_TRUE(kernels::score_block(block.tables.planes(), index.data(), index.size(),
-                                       std::min(threshold, largest), scores.data()));
+      ASSERT_TRUE(block.run(kernels::score_block, std::min(threshold, largest), scores));
       EXPECT_EQ(scores, expected) << points;
     }
     Scores scores{};
     for (const std::int32_t threshold : {largest + 1, 2 * largest + 1, 1 << 30})
-      EXPECT_FALSE(
-          kernels::score_block(block.tables.planes(), index.data(), index.size(), threshold, scores.data()))
-          << points;
+      EXPECT_FALSE(block.run(kernels::score_block, threshold, scores)) << points;
   }
 }
 
@@ -108,11 +91,10 @@ TEST_P(ScoreBlock, SumsBeyondSixteenBits) {
   const std::vector<std::uint8_t> field(100, 255);
   const internal::WindowTables tables = internal::make_window_tables(field, 10, 10);
   const Integers zero(1000, 0);
-  Integers index(1000);
-  kernels::window_indices(tables.planes(), 0, 0, zero.data(), zero.data(), zero.size(), index.data());
   Scores scores{}, expected{};
   expected.fill(255'000);
-  ASSERT_TRUE(kernels::score_block(tables.planes(), index.data(), index.size(), 255'000, scores.data()));
+  ASSERT_TRUE(kernels::score_block(tables.planes(), 0, 0, zero.data(), zero.data(), zero.size(), 255'000,
+                                   scores.data()));
   EXPECT_EQ(scores, expected);
 }
 

@@ -23,7 +23,6 @@ class ExactBlocks {
   const Query& query_;
   BestScore& best_;
   kernels::WindowPlanes planes_;
-  std::vector<std::int32_t> index_;
 };
 
 }  // namespace landfall::internal
