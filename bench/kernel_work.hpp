@@ -126,8 +126,10 @@ struct OfficeScan {
   internal::EndPoints points;
   internal::WindowTables tables =
       internal::make_window_tables(map.field(), lattice.width_cells, lattice.height_cells);
-  std::vector<internal::HeadingCells> cells;  // [view]
-  Integers block_col, block_row;              // [view]
+  std::vector<internal::HeadingCells> cells;     // [view]
+  std::vector<Integers> windows;                 // [view]
+  std::vector<kernels::TilePoints> tile_points;  // [view]: of these
+  Integers block_col, block_row;                 // [view]
 
   OfficeScan() {
     const auto sensor = std::make_shared<const Sensor>(
@@ -138,6 +140,10 @@ struct OfficeScan {
     for (int view = 0; view < views; ++view) {
       cells.emplace_back();
       internal::cells_at_heading(points, lattice, view * lattice.headings / views, cells.back());
+      windows.emplace_back(points.size());
+      tile_points.push_back(kernels::tile_points(tables.maxima(), cells.back().col.data(),
+                                                 cells.back().row.data(), points.size(),
+                                                 windows.back().data()));
       block_col.push_back(8 * random.between(0, lattice.width_cells / 8 - 1));
       block_row.push_back(8 * random.between(0, lattice.height_cells / 8 - 1));
     }
@@ -154,9 +160,8 @@ inline Work bound_windows_work(const SharedScan& scan) {
             answers.numbers.resize(OfficeScan::views * kernels::tile_blocks);
             const auto bound = twin ? kernels::scalar::bound_windows : kernels::bound_windows;
             for (std::size_t v = 0; v < OfficeScan::views; ++v)
-              bound(scan->tables.maxima(), scan->block_col[v], scan->block_row[v], scan->cells[v].col.data(),
-                    scan->cells[v].row.data(), scan->points.size(), 0, ~std::uint64_t{0},
-                    answers.numbers.data() + v * kernels::tile_blocks);
+              bound(scan->tables.maxima(), scan->block_col[v], scan->block_row[v], scan->tile_points[v], 0,
+                    ~std::uint64_t{0}, answers.numbers.data() + v * kernels::tile_blocks);
           }};
 }
 

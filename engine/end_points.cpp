@@ -47,9 +47,14 @@ EndPoints make_end_points(const Scan& scan, double resolution_m) {
 void cells_at_heading(const EndPoints& points, const Lattice& lattice, int heading, HeadingCells& cells) {
   cells.col.resize(points.size());
   cells.row.resize(points.size());
+  cells_at_heading(points, lattice, heading, cells.col.data(), cells.row.data());
+}
+
+void cells_at_heading(const EndPoints& points, const Lattice& lattice, int heading, std::int32_t* col,
+                      std::int32_t* row) {
   const double heading_rad = lattice.heading_grid_rad(heading);
   kernels::end_point_cells(points.x_cells.data(), points.y_cells.data(), points.size(), std::cos(heading_rad),
-                           std::sin(heading_rad), cells.col.data(), cells.row.data());
+                           std::sin(heading_rad), col, row);
 }
 
 }  // namespace landfall::internal

@@ -31,5 +31,8 @@ struct HeadingCells {
   std::vector<std::int32_t> row;
 };
 void cells_at_heading(const EndPoints& points, const Lattice& lattice, int heading, HeadingCells& cells);
+// Into arrays of points.size().
+void cells_at_heading(const EndPoints& points, const Lattice& lattice, int heading, std::int32_t* col,
+                      std::int32_t* row);
 
 }  // namespace landfall::internal

@@ -35,12 +35,12 @@ std::vector<std::uint8_t> reduce(std::span<const std::uint8_t> in, int cols, int
 
 // One element of `padded` in eight is of one phase, and so on; both begin block_cells before the map.
 void scatter_by_phase(std::span<const std::uint8_t> padded, std::size_t padded_row,
-                      const kernels::WindowMaxima& maxima, std::vector<std::uint8_t>& window_max) {
+                      const kernels::WindowMaxima& maxima, std::vector<std::uint8_t>& level) {
   using kernels::WindowMaxima;
   const int row = static_cast<int>(padded_row) - block_cells + WindowMaxima::pad_rows;
   for (int phase_col = 0; phase_col < block_cells; ++phase_col) {
     const std::int32_t first = maxima.index(WindowMaxima::pad_cols - block_cells + phase_col, row);
-    std::uint8_t* out = window_max.data() + first;
+    std::uint8_t* out = level.data() + first;
     for (std::size_t col = static_cast<std::size_t>(phase_col); col < padded.size(); col += block_cells)
       *out++ = padded[col];
   }
@@ -129,7 +129,7 @@ kernels::WindowMaxima WindowTables::maxima() const {
   using kernels::WindowMaxima;
   const std::int32_t stride = (width_cells + WindowMaxima::pad_cols) / block_cells + kernels::tile_cols;
   const std::int32_t rows = (height_cells + WindowMaxima::pad_rows) / block_cells + kernels::tile_rows;
-  return {.window_max = window_max.data(),
+  return {.level = level.data(),
           .stride = stride,
           .phase_size = rows * stride,
           .width = width_cells,
@@ -145,12 +145,12 @@ kernels::WindowPlanes WindowTables::planes() const {
 
 WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells) {
   WindowTables tables{
-      .width_cells = width_cells, .height_cells = height_cells, .window_max = {}, .column_of_2 = {}};
+      .width_cells = width_cells, .height_cells = height_cells, .level = {}, .column_of_2 = {}};
   const auto width = static_cast<std::size_t>(width_cells);
   const std::size_t stride = width + 2 * block_cells;
   const std::size_t rows = static_cast<std::size_t>(height_cells) + 2 * block_cells;
   const kernels::WindowMaxima maxima = tables.maxima();
-  tables.window_max.resize(static_cast<std::size_t>(maxima.phase_size) * block_cells * block_cells);
+  tables.level.resize(static_cast<std::size_t>(maxima.phase_size) * block_cells * block_cells);
   tables.column_of_2.resize(stride * rows);
   const std::vector<std::uint8_t> nothing(width);
   const auto field_row = [&](std::size_t padded_row) {
@@ -167,7 +167,8 @@ WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_c
       kernels::maximum(tallest.data() + block_cells, field_row(row), width, tallest.data() + block_cells);
     std::vector<std::uint8_t> slid(stride + block_cells);
     kernels::sliding_max_8(tallest.data(), stride + block_cells, scratch.data(), slid.data());
-    scatter_by_phase(std::span(slid).first(stride), r, maxima, tables.window_max);
+    for (std::uint8_t& value : slid) value = kernels::window_level(value);
+    scatter_by_phase(std::span(slid).first(stride), r, maxima, tables.level);
   });
   return tables;
 }

@@ -66,14 +66,12 @@ class BoundTable {
 struct WindowTables {
   int width_cells = 0;
   int height_cells = 0;
-  std::vector<std::uint8_t> window_max;    // as WindowMaxima says
+  std::vector<std::uint8_t> level;         // as WindowMaxima says
   std::vector<std::uint16_t> column_of_2;  // as WindowPlanes says
 
   [[nodiscard]] kernels::WindowMaxima maxima() const;
   [[nodiscard]] kernels::WindowPlanes planes() const;
-  [[nodiscard]] std::size_t memory_bytes() const {
-    return window_max.capacity() + 2 * column_of_2.capacity();
-  }
+  [[nodiscard]] std::size_t memory_bytes() const { return level.capacity() + 2 * column_of_2.capacity(); }
 };
 
 WindowTables make_window_tables(std::span<const std::uint8_t> field, int width_cells, int height_cells);

@@ -39,13 +39,57 @@ void WindowIndices(const WindowPlanes& planes, int col, int row, const std::int3
 
 // Two rows x eight columns stand in columns of two: lane 2 * col + row.
 constexpr std::size_t pair_poses = sums_a_row;
+// 16 bits hold the sum of 257 bytes; 256 are a whole number of looks.
+constexpr std::size_t addends_a_word = 256;
+
+// Pairs of rows, 8 elements wide, at every index.
+#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86
+// All sums stay in registers, one a row.
+HWY_INLINE void AddPairs(const WindowPlanes& planes, const std::int32_t* HWY_RESTRICT index,
+                         std::size_t count, std::uint16_t* HWY_RESTRICT sums) {
+  const hn::FixedTag<std::uint16_t, pair_poses> d;
+  const hn::Rebind<std::uint8_t, decltype(d)> d_byte;
+  const auto add = [&](auto sum, const std::uint16_t* pairs) HWY_ATTR {
+    return hn::Add(sum, hn::PromoteTo(d, hn::LoadU(d_byte, reinterpret_cast<const std::uint8_t*>(pairs))));
+  };
+  const std::ptrdiff_t up = 2 * static_cast<std::ptrdiff_t>(planes.stride);
+  auto sum0 = hn::Load(d, sums);
+  auto sum1 = hn::Load(d, sums + pair_poses);
+  auto sum2 = hn::Load(d, sums + 2 * pair_poses);
+  auto sum3 = hn::Load(d, sums + 3 * pair_poses);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t* first = planes.column_of_2 + index[i];
+    sum0 = add(sum0, first);
+    sum1 = add(sum1, first + up);
+    sum2 = add(sum2, first + 2 * up);
+    sum3 = add(sum3, first + 3 * up);
+  }
+  hn::Store(sum0, d, sums);
+  hn::Store(sum1, d, sums + pair_poses);
+  hn::Store(sum2, d, sums + 2 * pair_poses);
+  hn::Store(sum3, d, sums + 3 * pair_poses);
+}
+#else
+HWY_INLINE void AddPairs(const WindowPlanes& planes, const std::int32_t* HWY_RESTRICT index,
+                         std::size_t count, std::uint16_t* HWY_RESTRICT sums) {
+  const hn::CappedTag<std::uint16_t, pair_poses> d;
+  const hn::Rebind<std::uint8_t, decltype(d)> d_byte;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t pair = 0; pair < sum_rows; ++pair) {
+      const auto* first = reinterpret_cast<const std::uint8_t*>(
+          planes.column_of_2 + index[i] + 2 * static_cast<std::ptrdiff_t>(pair) * planes.stride);
+      for (std::size_t lane = 0; lane < pair_poses; lane += hn::Lanes(d)) {
+        std::uint16_t* sum = sums + pair * pair_poses + lane;
+        hn::Store(hn::Add(hn::Load(d, sum), hn::PromoteTo(d, hn::LoadU(d_byte, first + lane))), d, sum);
+      }
+    }
+}
+#endif
 
 bool ScoreBlock(const WindowPlanes& planes, int col, int row, const std::int32_t* point_col,
                 const std::int32_t* point_row, std::size_t points, std::int32_t threshold,
                 std::int32_t* scores) {
   constexpr std::size_t points_per_look = 32;
-  const Rows pairs{.bytes = reinterpret_cast<const std::uint8_t*>(planes.column_of_2),
-                   .row_bytes = 4 * static_cast<std::ptrdiff_t>(planes.stride)};
   HWY_ALIGN std::int32_t index[points_per_look];
   HWY_ALIGN std::uint16_t sums[block_poses] = {};
   HWY_ALIGN std::int32_t totals[block_poses] = {};
@@ -53,7 +97,7 @@ bool ScoreBlock(const WindowPlanes& planes, int col, int row, const std::int32_t
   for (std::size_t i = 0; i < points;) {
     const std::size_t count = std::min(points_per_look, points - i);
     WindowIndices(planes, col, row, point_col + i, point_row + i, count, index);
-    AddRows<2>(pairs, index, count, sums);
+    AddPairs(planes, index, count, sums);
     i += count;
     const std::int64_t rest = 255 * static_cast<std::int64_t>(points - i);
     if (largest_total + LargestSum(sums) + rest < threshold) return false;

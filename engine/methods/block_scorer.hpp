@@ -2,62 +2,23 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "engine/methods/best_score.hpp"
 #include "engine/methods/dense_bounds.hpp"
+#include "engine/methods/points_on_demand.hpp"
 #include "engine/query.hpp"
 
 namespace landfall::internal {
-
-// Cells of the end points at every heading, computed when first asked for; by several threads at a time.
-// (std::call_once makes a system call each time; who comes meanwhile waits for less than a microsecond.)
-class HeadingCellsOnDemand {
- public:
-  HeadingCellsOnDemand(const EndPoints& points, const Lattice& lattice)
-      : points_(points),
-        lattice_(lattice),
-        cells_(static_cast<std::size_t>(lattice.headings)),
-        state_(std::make_unique<std::atomic<State>[]>(cells_.size())) {}
-
-  const HeadingCells& at(int heading) {
-    const auto k = static_cast<std::size_t>(heading);
-    while (state_[k].load(std::memory_order_acquire) != State::ready) {
-      State expected = State::none;
-      if (!state_[k].compare_exchange_strong(expected, State::under_way, std::memory_order_acquire)) {
-        std::this_thread::yield();
-        continue;
-      }
-      try {
-        cells_at_heading(points_, lattice_, heading, cells_[k]);
-      } catch (...) {
-        state_[k].store(State::none, std::memory_order_release);  // nobody shall wait for ever
-        throw;
-      }
-      state_[k].store(State::ready, std::memory_order_release);
-    }
-    return cells_[k];
-  }
-
- private:
-  enum class State : std::uint8_t { none, under_way, ready };
-
-  const EndPoints& points_;
-  const Lattice& lattice_;
-  std::vector<HeadingCells> cells_;
-  std::unique_ptr<std::atomic<State>[]> state_;
-};
 
 // What the threads of one search share.
 struct SharedSearch {
   const Query& query;
   kernels::WindowMaxima maxima;
   kernels::WindowPlanes planes;
-  std::unique_ptr<HeadingCellsOnDemand> heading_cells;
+  std::unique_ptr<PointsOnDemand> points;
   RivalMargin margin{};
   BestScore best{};
 
@@ -67,7 +28,7 @@ struct SharedSearch {
 
 // A block at one heading that has been bounded and not yet scored.
 struct PendingBlock {
-  std::int32_t bound;
+  std::int32_t bound;  // in window levels
   std::int32_t heading;
   std::int32_t row;
   std::int32_t col;
@@ -93,7 +54,7 @@ class BlockScorer {
 
  private:
   // Blocks of the node at one heading that may reach the score that matters; bits row * tile_cols + col.
-  std::uint64_t bound_blocks(const Node& node, std::uint64_t blocks, const HeadingCells& cells);
+  std::uint64_t bound_blocks(const Node& node, std::uint64_t blocks, int heading);
   [[nodiscard]] int best_of(std::uint64_t blocks) const;
   void visit_blocks(const Node& node, std::uint64_t blocks, int heading, const BlockMask& mask);
   void score(int row, int col, int heading, const BlockMask& mask, std::int32_t lowest);
@@ -102,8 +63,8 @@ class BlockScorer {
   }
 
   SharedSearch& search_;
-  std::int32_t best_bound_ = 0;  // of those that bound() has seen
-  std::array<std::int32_t, kernels::tile_blocks> bounds_{};
+  std::int32_t best_bound_ = 0;                              // of those that bound() has seen
+  std::array<std::int32_t, kernels::tile_blocks> bounds_{};  // in window levels
 };
 
 }  // namespace landfall::internal

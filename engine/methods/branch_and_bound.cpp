@@ -24,7 +24,8 @@ class BranchAndBound {
         search_{.query = query,
                 .maxima = query.map.window_tables().maxima(),
                 .planes = query.map.window_tables().planes(),
-                .heading_cells = std::make_unique<HeadingCellsOnDemand>(query.points, query.lattice),
+                .points = std::make_unique<PointsOnDemand>(query.points, query.lattice,
+                                                           query.map.window_tables().maxima()),
                 .margin = query.margin} {}
 
   Proposal run() {
@@ -112,7 +113,7 @@ class BranchAndBound {
     sort_nodes(nodes_);
     if (nodes_.size() > few_nodes) {
       telling_points_ = most_telling_first(query_.points, search_, groups_, nodes_);
-      search_.heading_cells = std::make_unique<HeadingCellsOnDemand>(telling_points_, query_.lattice);
+      search_.points = std::make_unique<PointsOnDemand>(telling_points_, query_.lattice, search_.maxima);
     }
   }
 

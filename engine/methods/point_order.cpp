@@ -15,13 +15,13 @@ EndPoints most_telling_first(const EndPoints& points, SharedSearch& search, cons
   std::vector<std::int64_t> seen(points.size());  // sum of the windows' maxima
   for (std::size_t i = 0; i < sampled; ++i) {
     const Node& node = nodes[i * nodes.size() / sampled];
-    const HeadingCells& cells =
-        search.heading_cells->at((groups.first(node.group) + groups.last(node.group)) / 2);
+    const kernels::TilePoints& at =
+        search.points->at((groups.first(node.group) + groups.last(node.group)) / 2);
     const int lane = std::countr_zero(node.lanes);
     const int col = (node.col + kernels::lane_col(lane)) * block_cells;
     const int row = (node.row + kernels::lane_row(lane)) * block_cells;
     for (std::size_t p = 0; p < points.size(); ++p)
-      seen[p] += maxima.window_max[maxima.tile_index(col + cells.col[p], row + cells.row[p])];
+      seen[p] += maxima.level[maxima.tile_index(col + at.col[p], row + at.row[p])];
   }
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -127,8 +127,9 @@ TEST(WindowTables, HoldTheMaximumOfEveryWindowThatATileMayTouch) {
     for (int row = -WindowMaxima::pad_rows; row <= last_row; ++row)
       for (int col = -WindowMaxima::pad_cols; col <= last_col; ++col) {
         const std::int32_t at = maxima.index(col + WindowMaxima::pad_cols, row + WindowMaxima::pad_rows);
-        ASSERT_LT(static_cast<std::size_t>(at), tables.window_max.size());
-        ASSERT_EQ(maxima.window_max[at], field.window_max(col, row, block_cells)) << col << ", " << row;
+        ASSERT_LT(static_cast<std::size_t>(at), tables.level.size());
+        const auto most = static_cast<std::uint8_t>(field.window_max(col, row, block_cells));
+        ASSERT_EQ(maxima.level[at], kernels::window_level(most)) << col << ", " << row;
       }
   }
 }
