@@ -212,13 +212,14 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
       query.margin = second_margin(points.size());
       modes = examine(query, method, result);
     }
+    if (modes.modes.empty()) continue;  // a map without any pose says nothing of the others'
     for (Mode& mode : modes.modes) mode.map_index = static_cast<int>(m);
     found.push_back(std::move(modes));
   }
   const StageTimer rank_timer(result.times.rank_ms);
   rank(found, options.max_hypotheses, result);
   const bool in_time = options.time_budget_s <= 0.0 || ms_since(start) < 1e3 * options.time_budget_s;
-  if (method.samples && result.hypotheses.empty() && in_time) result.reason = "no pose was found that fits";
+  if (result.hypotheses.empty() && !result.proven && in_time) result.reason = "no pose was found that fits";
   return result;
 }
 

@@ -95,6 +95,43 @@ TEST(SeveralMaps, APriorMayLieOffSomeOfThem) {
   EXPECT_EQ(result.hypotheses.at(0).map_index, 1);
 }
 
+// Beams that end 2.95 m or more away would have passed walls everywhere here, and the echoes lie in free
+// space: no pose at the robot's place scores with method `grid`.
+GridMap cluttered_place() {
+  GridMap map = empty_map(80, 80, 0.1, {-1.0, -1.0, 0.0});
+  for (int row = 12; row < 68; ++row)
+    for (int col = 12; col < 68; ++col)
+      fill(map, {col, row}, {col, row}, (col + row) % 2 == 0 ? Occupancy::unknown : Occupancy::occupied);
+  fill(map, {40, 40}, {40, 40}, Occupancy::free);
+  return map;
+}
+
+TEST(SeveralMaps, OneThatOffersNothingSaysNothingOfTheOthers) {
+  const PreparedMap room(testing::empty_room(60, 60, 0.1));
+  const PreparedMap cluttered(cluttered_place());
+  const Pose2 T_map_robot{3.05, 3.05, 0.0};
+  const Scan scan = look(room, full_circle(24), T_map_robot);
+  const std::vector<PosePrior> here{{Window{T_map_robot, 0.01, 0.01, 0.0}}};
+  const auto ask = [&](const std::vector<PreparedMap>& maps, const char* method) {
+    return search(maps, here, std::vector<Scan>{scan}, {.method = method, .rotation_step_rad = 0.05}).front();
+  };
+  for (const char* method : {"grid", "grid_published", "grid_reduced"}) {
+    SCOPED_TRACE(method);
+    const SearchResult nothing = ask({cluttered}, method);
+    ASSERT_TRUE(nothing.hypotheses.empty());
+    EXPECT_EQ(nothing.reason, nothing.proven ? "no echo falls near a wall from any pose of the prior"
+                                             : "no pose was found that fits");
+    const SearchResult alone = ask({room}, method);
+    ASSERT_FALSE(alone.hypotheses.empty());
+    EXPECT_GT(alone.hypotheses[0].probability, 0.5);
+    for (const SearchResult& beside : {ask({cluttered, room}, method), ask({room, cluttered}, method)}) {
+      ASSERT_FALSE(beside.hypotheses.empty());
+      EXPECT_EQ(beside.hypotheses[0].probability, alone.hypotheses[0].probability);
+      EXPECT_EQ(beside.verdict, alone.verdict);
+    }
+  }
+}
+
 // Two rooms of the same size side by side. The left one has lost a piece of its walls (a door stands open:
 // the field says less there); in the right one a screen stands between the robot's place and the walls, so
 // that all beams would have to pass through it.
