@@ -43,26 +43,6 @@ struct Centre {
   double mass;  // within a step of the lattice, over that of the likeliest pose
 };
 
-std::vector<double> log_likelihoods(const Query& query, const BeamModel& model,
-                                    const std::vector<Pose2>& T_map_robot, const PoseSpacing& spacing) {
-  std::vector<double> answers(T_map_robot.size());
-  const std::size_t beams = model.beams().size();
-  parallel_for((T_map_robot.size() + poses_per_task - 1) / poses_per_task, query.threads,
-               [&](std::size_t task) {
-                 const std::size_t first = task * poses_per_task;
-                 const std::size_t last = std::min(first + poses_per_task, T_map_robot.size());
-                 std::vector<raycast::Pose> poses;
-                 for (std::size_t i = first; i < last; ++i) poses.push_back(to_raycast(T_map_robot[i]));
-                 std::vector<float> simulated_m(poses.size() * beams);
-                 query.map.scene().cast_fans(poses, model.beams(), simulated_m);
-                 for (std::size_t i = first; i < last; ++i)
-                   answers[i] = model.log_likelihood(
-                       T_map_robot[i],
-                       std::span<const float>(simulated_m).subspan((i - first) * beams, beams), spacing);
-               });
-  return answers;
-}
-
 // Each half a step around the lattice's pose.
 std::vector<Pose2> poses_within_cell(const Lattice& lattice, const Pose2& T_map_robot) {
   const double step_m = 0.25 * lattice.step_cells * lattice.resolution_m;
@@ -102,6 +82,7 @@ class RangePosterior {
     found.in_order = in_order_;
     found.log_elsewhere = log_elsewhere_;
     found.log_all = log_best_ + std::log(all_);
+    found.rays_cast = rays_cast_;
     for (const Centre& centre : centres_) {
       if (found.modes.size() >= most) break;
       const std::size_t i = centre.candidate;
@@ -125,6 +106,27 @@ class RangePosterior {
   static bool is_within(const Pose2& a, const Pose2& b, const PoseSpacing& distances) {
     return translation_distance(a, b) < distances.translation_m &&
            angle_distance(a.theta_rad, b.theta_rad) < distances.rotation_rad;
+  }
+
+  // Casts the scan's beams from every pose.
+  std::vector<double> log_likelihoods(const std::vector<Pose2>& T_map_robot, const PoseSpacing& spacing) {
+    std::vector<double> answers(T_map_robot.size());
+    const std::size_t beams = model_.beams().size();
+    parallel_for((T_map_robot.size() + poses_per_task - 1) / poses_per_task, query_.threads,
+                 [&](std::size_t task) {
+                   const std::size_t first = task * poses_per_task;
+                   const std::size_t last = std::min(first + poses_per_task, T_map_robot.size());
+                   std::vector<raycast::Pose> poses;
+                   for (std::size_t i = first; i < last; ++i) poses.push_back(to_raycast(T_map_robot[i]));
+                   std::vector<float> simulated_m(poses.size() * beams);
+                   query_.map.scene().cast_fans(poses, model_.beams(), simulated_m);
+                   for (std::size_t i = first; i < last; ++i)
+                     answers[i] = model_.log_likelihood(
+                         T_map_robot[i],
+                         std::span<const float>(simulated_m).subspan((i - first) * beams, beams), spacing);
+                 });
+    rays_cast_ += static_cast<std::int64_t>(T_map_robot.size() * beams);
+    return answers;
   }
 
   // Where ranges say little of any pose, as sonars' do that walls reflect away, the score decides: it asks
@@ -161,9 +163,8 @@ class RangePosterior {
     for (const Neighbourhood& place : places)
       T_map_best.push_back(query_.lattice.T_map_robot(all[place.front()].pose));
     constexpr double steps = 3.0;  // the likeliest pose may be so far from the best score
-    std::vector<double> log_place =
-        log_likelihoods(query_, model_, T_map_best,
-                        {.translation_m = steps * step().translation_m, .rotation_rad = step().rotation_rad});
+    std::vector<double> log_place = log_likelihoods(
+        T_map_best, {.translation_m = steps * step().translation_m, .rotation_rad = step().rotation_rad});
     for (std::size_t p = 0; p < places.size(); ++p)
       log_place[p] = log_likelihood(log_place[p], all[places[p].front()]);
     std::vector<std::size_t> order(places.size());
@@ -177,7 +178,7 @@ class RangePosterior {
   }
 
   void weigh_lattice() {
-    log_mass_ = log_likelihoods(query_, model_, T_map_candidate_, step());
+    log_mass_ = log_likelihoods(T_map_candidate_, step());
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       log_mass_[i] = log_likelihood(log_mass_[i], candidates_[i]) +
                      query_.domain.log_prior(query_.lattice, candidates_[i].pose);
@@ -197,7 +198,7 @@ class RangePosterior {
       T_map_robot.insert(T_map_robot.end(), within.begin(), within.end());
     }
     const std::vector<double> log_ranges = log_likelihoods(
-        query_, model_, T_map_robot,
+        T_map_robot,
         {.translation_m = 0.5 * step().translation_m, .rotation_rad = 0.5 * step().rotation_rad});
     constexpr std::size_t within_cell = 8;
     for (std::size_t s = 0; s < T_map_robot.size(); ++s) {
@@ -273,6 +274,7 @@ class RangePosterior {
   double log_best_ = nothing;
   double all_ = 0.0;  // over exp(log_best_)
   std::vector<Centre> centres_;
+  std::int64_t rays_cast_ = 0;
 };
 
 }  // namespace

@@ -39,6 +39,7 @@ struct Modes {
   bool in_order = false;       // whatever they weigh, the first is the answer
   double log_all = 0.0;        // by ranges: of all poses of the prior
   double log_elsewhere = 0.0;  // by ranges: likelihood of the scan from a place off the map
+  std::int64_t rays_cast = 0;  // by ranges: to find them
 };
 
 // Greedy: the best candidate is a mode, and so is each next one that is not within both distances of one

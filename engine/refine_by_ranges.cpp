@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "engine/to_raycast.hpp"
@@ -56,13 +57,14 @@ class RangeResiduals {
       : scene_(map.scene()), echoes_(std::move(echoes)), simulated_m_(4 * echoes_.beams.size()) {}
 
   [[nodiscard]] double noise_m() const { return echoes_.noise_m; }
+  [[nodiscard]] std::int64_t rays_cast() const { return rays_cast_; }
 
   Linearised at(const Pose2& T_map_robot, double width_m) {
     const std::array<raycast::Pose, 4> poses{to_raycast(T_map_robot),
                                              to_raycast(moved(T_map_robot, {step_m, 0.0, 0.0})),
                                              to_raycast(moved(T_map_robot, {0.0, step_m, 0.0})),
                                              to_raycast(moved(T_map_robot, {0.0, 0.0, step_rad}))};
-    scene_.cast_fans(poses, echoes_.beams, simulated_m_);
+    cast(poses, simulated_m_);
     const std::size_t count = echoes_.beams.size();
     Linearised sum;
     for (std::size_t b = 0; b < count; ++b) {
@@ -87,7 +89,7 @@ class RangeResiduals {
   double cost(const Pose2& T_map_robot, double width_m) {
     const raycast::Pose pose = to_raycast(T_map_robot);
     const std::span<float> simulated_m = std::span(simulated_m_).first(echoes_.beams.size());
-    scene_.cast_fans(std::span(&pose, 1), echoes_.beams, simulated_m);
+    cast(std::span(&pose, 1), simulated_m);
     double sum = 0.0;
     for (std::size_t b = 0; b < simulated_m.size(); ++b) {
       const double squared = std::pow((echoes_.range_m[b] - simulated_m[b]) / width_m, 2);
@@ -97,9 +99,15 @@ class RangeResiduals {
   }
 
  private:
+  void cast(std::span<const raycast::Pose> poses, std::span<float> simulated_m) {
+    scene_.cast_fans(poses, echoes_.beams, simulated_m);
+    rays_cast_ += static_cast<std::int64_t>(simulated_m.size());
+  }
+
   const raycast::Scene& scene_;
   Echoes echoes_;
   std::vector<float> simulated_m_;  // of the pose, and of it moved along x, y and theta
+  std::int64_t rays_cast_ = 0;
 };
 
 std::array<double, 9> covariance_of(const Linearised& at, double noise_m) {
@@ -141,8 +149,10 @@ RefinedByRanges refine_by_ranges(const PreparedState& map, const Scan& scan, con
   const Pose2 T_map_end = moved(T_map_start, moved_by);
   const bool better = residuals.cost(T_map_end, last_width_m) < residuals.cost(T_map_start, last_width_m);
   const Pose2 T_map_robot = better ? T_map_end : T_map_start;
+  const Linearised there = residuals.at(T_map_robot, last_width_m);
   return {.T_map_robot = T_map_robot,
-          .covariance = covariance_of(residuals.at(T_map_robot, last_width_m), residuals.noise_m())};
+          .covariance = covariance_of(there, residuals.noise_m()),
+          .rays_cast = residuals.rays_cast()};
 }
 
 }  // namespace landfall::internal

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "engine/prepared_state.hpp"
 #include "landfall/scan.hpp"
@@ -14,6 +15,7 @@ namespace landfall::internal {
 struct RefinedByRanges {
   Pose2 T_map_robot{};
   std::array<double, 9> covariance{};  // map frame, row by row
+  std::int64_t rays_cast = 0;
 };
 
 // How far a refined pose may be from where it started.

@@ -2,6 +2,7 @@
 #include "landfall/search.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -86,6 +87,7 @@ void refine_modes(const Query& query, const Method& method, Modes& found, Search
   const std::vector<Beam>& beams = query.scan.sensor->beams;
   const bool cones =
       std::any_of(beams.begin(), beams.end(), [](const Beam& b) { return b.half_angle_rad > 0.0; });
+  std::atomic<std::int64_t> rays_cast{0};
   parallel_for(found.modes.size(), query.threads, [&](std::size_t i) {
     Mode& mode = found.modes[i];
     Hypothesis& hypothesis = mode.hypothesis;
@@ -97,6 +99,7 @@ void refine_modes(const Query& query, const Method& method, Modes& found, Search
     if (method.refines_by_ranges && query.map.is_plan()) {
       exact = refine_by_ranges(query.map, query.scan, T_map_start);
       T_map_start = exact->T_map_robot;
+      rays_cast += exact->rays_cast;
       if (const auto beside = best_on_lattice_beside(query, T_map_start)) mode.best = *beside;
     }
     const Refined refined = refine(query.map, query.points, query.lattice, T_map_start);
@@ -106,6 +109,7 @@ void refine_modes(const Query& query, const Method& method, Modes& found, Search
     mode.share = refined.share;
     if (problem) mode.ways_to_settle = settle(*problem, hypothesis.T_map_robot);
   });
+  result.counts.rays_cast += rays_cast;
 }
 
 // The way to settle that the map explains more of; the first where it is the same.
@@ -123,7 +127,10 @@ void verify_settled(const Query& query, Mode& mode) {
 
 void verify_modes(const Query& query, Modes& found, SearchResult& result) {
   const StageTimer timer(result.times.verify_ms);
+  std::size_t poses = found.modes.size();
   if (query.scan.parts) {
+    poses = 0;
+    for (const Mode& mode : found.modes) poses += mode.ways_to_settle.size();
     parallel_for(found.modes.size(), query.threads,
                  [&](std::size_t i) { verify_settled(query, found.modes[i]); });
   } else {
@@ -133,7 +140,7 @@ void verify_modes(const Query& query, Modes& found, SearchResult& result) {
     for (std::size_t i = 0; i < verified.size(); ++i) found.modes[i].verification = verified[i];
   }
   for (Mode& mode : found.modes) mode.hypothesis.explained = mode.verification.explained;
-  result.counts.rays_cast += static_cast<std::int64_t>(found.modes.size()) * result.beams_valid;
+  result.counts.rays_cast += static_cast<std::int64_t>(poses) * result.beams_valid;
 }
 
 void judge_modes(const Query& query, Modes& found, SearchResult& result) {
@@ -151,6 +158,7 @@ Modes examine(const Query& query, const Method& method, SearchResult& result) {
                ? find_modes_by_ranges(query, proposal, most)
                : find_modes(query, proposal.candidates, most, proposal.free_candidates);
   }();
+  result.counts.rays_cast += modes.rays_cast;
   refine_modes(query, method, modes, result);
   if (method.samples) drop_repeated(query.options, modes.modes);
   judge_modes(query, modes, result);

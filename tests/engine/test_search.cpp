@@ -204,6 +204,16 @@ TEST_F(SearchInARoom, ABudgetGivesTheBestSoFar) {
   EXPECT_TRUE(search(map, {Anywhere{}}, scan, options).proven);
 }
 
+// `grid` casts the scan's beams from each pose that it compares, and those it answers once more.
+TEST_F(SearchInARoom, RaysThatTellPosesApartAreCounted) {
+  SearchOptions options = coarse;
+  options.method = "grid";
+  const SearchResult result = search(map, {Window{T_map_robot, 0.3, 0.3, 0.2}}, scan, options);
+  ASSERT_FALSE(result.hypotheses.empty());
+  EXPECT_GT(result.counts.rays_cast, 20 * 120);
+  EXPECT_EQ(result.counts.rays_cast % 120, 0);
+}
+
 TEST_F(SearchInARoom, ABatchEqualsItsScansOneByOne) {
   std::vector<Scan> scans;
   std::vector<PosePrior> priors;
