@@ -119,17 +119,14 @@ DiffusionRun run_diffusion(const PreparedMap& map, const PosePrior& prior, const
       .measure_time = true,
       .observe = [&observer](const Network& network, std::uint32_t number) { observer(network, number); }};
   const EndPoints points = make_end_points(scan, lattice.resolution_m);
-  Query query{.map = map.state(),
-              .scan = scan,
-              .points = points,
-              .lattice = lattice,
-              .domain = domain,
-              .options = search_options,
-              .threads = options.threads,
-              .deadline = {}};
-  if (options.time_budget_s > 0.0)
-    query.deadline = start + std::chrono::duration_cast<Clock::duration>(
-                                 std::chrono::duration<double>(options.time_budget_s));
+  const Query query{.map = map.state(),
+                    .scan = scan,
+                    .points = points,
+                    .lattice = lattice,
+                    .domain = domain,
+                    .options = search_options,
+                    .threads = options.threads,
+                    .deadline = deadline_of(start, options.time_budget_s)};
   take(find_modes_by_diffusion(query, settings), run);
   if (!options.snapshot_iterations.empty()) observer.finish();
   run.first_mode_ms = ms_between(start, observer.first_network_end());

@@ -5,6 +5,12 @@
 
 namespace landfall::internal {
 
+std::optional<Clock::time_point> deadline_of(Clock::time_point start, double time_budget_s) {
+  constexpr double longest_s = 1e9;  // 30 years
+  if (!(time_budget_s > 0.0) || time_budget_s > longest_s) return std::nullopt;
+  return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_budget_s));
+}
+
 std::int32_t lowest_rival(std::int32_t best_score, const RivalMargin& margin) {
   return std::max(1, best_score - margin.at(best_score));
 }

@@ -18,6 +18,9 @@ namespace landfall::internal {
 
 using Clock = std::chrono::steady_clock;
 
+// When a budget that begins at `start` ends; none where it is 0, or longer than clocks count.
+std::optional<Clock::time_point> deadline_of(Clock::time_point start, double time_budget_s);
+
 struct Query {
   const PreparedState& map;
   const Scan& scan;

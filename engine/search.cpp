@@ -211,10 +211,7 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
                 .options = options,
                 .margin = scan.measured ? second_margin(points.size()) : rival_margin(points.size()),
                 .threads = threads,
-                .deadline = {}};
-    if (options.time_budget_s > 0.0)
-      query.deadline = start + std::chrono::duration_cast<Clock::duration>(
-                                   std::chrono::duration<double>(options.time_budget_s));
+                .deadline = deadline_of(start, options.time_budget_s)};
     Modes modes = examine(query, method, result);
     if (deserves_second_look(query, method, modes)) {
       query.margin = second_margin(points.size());

@@ -204,6 +204,16 @@ TEST_F(SearchInARoom, ABudgetGivesTheBestSoFar) {
   EXPECT_TRUE(search(map, {Anywhere{}}, scan, options).proven);
 }
 
+TEST_F(SearchInARoom, ABudgetBeyondAllClocksIsNone) {
+  SearchOptions options = coarse;
+  for (const double budget_s : {1e10, 1e300}) {
+    options.time_budget_s = budget_s;
+    const SearchResult result = search(map, {Anywhere{}}, scan, options);
+    EXPECT_TRUE(result.proven) << budget_s;
+    EXPECT_EQ(result.verdict, Verdict::found) << budget_s;
+  }
+}
+
 // `grid` casts the scan's beams from each pose that it compares, and those it answers once more.
 TEST_F(SearchInARoom, RaysThatTellPosesApartAreCounted) {
   SearchOptions options = coarse;
