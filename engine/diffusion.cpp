@@ -15,6 +15,7 @@ namespace {
 using namespace internal;
 
 constexpr int most_cells = 1 << 20;
+constexpr int most_modes = 1000;
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw Error(ErrorCode::invalid_argument, "run_diffusion: option " + what);
@@ -29,6 +30,9 @@ void validate(const DiffusionOptions& options) {
           "top_half_rad is " + std::to_string(options.top_half_rad) + ", expected 0 or more");
   require((options.top_half_m > 0.0) == (options.top_half_rad > 0.0),
           "top_half_m and top_half_rad: expected both or neither");
+  require(
+      options.max_modes >= 1 && options.max_modes <= most_modes,
+      "max_modes is " + std::to_string(options.max_modes) + ", expected 1 to " + std::to_string(most_modes));
   for (const int iteration : options.snapshot_iterations)
     require(iteration >= 0, "snapshot_iterations has " + std::to_string(iteration) + ", expected 0 or more");
 }
@@ -107,6 +111,7 @@ DiffusionRun run_diffusion(const PreparedMap& map, const PosePrior& prior, const
   (void)map.state().scene();
   const Lattice lattice = make_lattice(map.grid(), 0.0, search_options.rotation_step_rad);
   const Domain domain = make_domain(prior, lattice, map.state().free_mask(0.0, 1));
+  if (!domain.on_map) throw Error(ErrorCode::invalid_argument, "prior lies entirely off the map");
   DiffusionRun run;
   if (domain.poses == 0 || count_valid(scan) == 0) return run;
   const Clock::time_point start = Clock::now();

@@ -255,6 +255,20 @@ TEST(RunDiffusion, RefusesOptionsOutOfRange) {
   EXPECT_THROW(run_diffusion(map, {Anywhere{}}, scan, {.cells = -1}), Error);
   EXPECT_THROW(run_diffusion(map, {Anywhere{}}, scan, {.top_half_m = 0.3}), Error);
   EXPECT_THROW(run_diffusion(map, {Anywhere{}}, scan, {.snapshot_iterations = {-2}}), Error);
+  try {
+    (void)run_diffusion(map, {Anywhere{}}, scan, {.max_modes = 0});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("max_modes is 0"), std::string::npos) << error.what();
+  }
+}
+
+TEST(RunDiffusion, RefusesAPriorOffTheMapAsSearchDoes) {
+  const PreparedMap map(testing::furnished_room());
+  const Scan scan = look(map, full_circle(20), {3.0, 2.0, 0.0});
+  const PosePrior elsewhere{Window{{100.0, 3.0, 0.0}, 1.0, 1.0, 1.0}};
+  EXPECT_THROW((void)search(map, elsewhere, scan, by("fsdn")), Error);
+  EXPECT_THROW((void)run_diffusion(map, elsewhere, scan), Error);
 }
 
 }  // namespace
