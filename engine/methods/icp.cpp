@@ -3,6 +3,7 @@
 // (Weiss et al. 1994) against the scan that the map would give at the prior's middle. The map may be one that
 // was made from a single earlier scan. A prior larger than their reach is answered from starts all over it.
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "engine/methods/free_search.hpp"
@@ -32,15 +33,19 @@ template <class Matched>
 Proposal propose_matched(const Query& query, const CenterReach& reach, const Matched& match) {
   const MapFit fit(query);
   const std::vector<Pose2> starts = search_centers(query, reach, starts_per_reach);
-  std::vector<FreeCandidate> found(starts.size());
+  std::vector<std::optional<FreeCandidate>> matched(starts.size());
   (void)query.map.field();
   parallel_for(starts.size(), query.threads, [&](std::size_t i) {
     if (query.out_of_time()) return;
     const Pose2 T_map_robot = match(starts[i]);
-    found[i] = {.T_map_robot = T_map_robot, .score = fit.at(T_map_robot)};
+    matched[i] = {.T_map_robot = T_map_robot, .score = fit.at(T_map_robot)};
   });
+  std::vector<FreeCandidate> found;
+  for (const std::optional<FreeCandidate>& one : matched)
+    if (one) found.push_back(*one);
+  const auto count = static_cast<std::int64_t>(found.size());
   Proposal proposal = propose_free(query, std::move(found));
-  proposal.counts.poses_scored = static_cast<std::int64_t>(starts.size());
+  proposal.counts.poses_scored = count;
   return proposal;
 }
 
@@ -48,9 +53,8 @@ Proposal propose_icp(const Query& query, bool to_line) {
   const std::vector<Point2> moving = end_points_robot(query);
   const IcpTarget& target = query.map.icp_target();
   const IcpOptions options{.to_line = to_line, .reach_m = icp_reach.translation_m};
-  return propose_matched(query, icp_reach, [&](const Pose2& T_map_start) {
-    return target.match(moving, T_map_start, options).T_fixed_moving;
-  });
+  return propose_matched(
+      query, icp_reach, [&](const Pose2& T_map_start) { return target.match(moving, T_map_start, options); });
 }
 
 // What the scan's sensor would see of the map, in the robot's frame, in the order of its beams.
@@ -80,9 +84,12 @@ Proposal propose_angle_histogram(const Query& query) {
   const std::vector<Point2> after = end_points_robot(query);
   const HistogramOptions options{.reach_m = histogram_reach.translation_m,
                                  .reach_rad = histogram_reach.rotation_rad};
-  return propose_matched(query, histogram_reach, [&](const Pose2& T_map_start) {
+  Proposal proposal = propose_matched(query, histogram_reach, [&](const Pose2& T_map_start) {
     return T_map_start * match_histograms(seen_from(query, T_map_start), after, {}, options);
   });
+  proposal.counts.rays_cast =
+      proposal.counts.poses_scored * static_cast<std::int64_t>(query.scan.sensor->beams.size());
+  return proposal;
 }
 
 }  // namespace landfall::internal

@@ -142,29 +142,20 @@ std::size_t IcpTarget::memory_bytes() const {
          sizeof(std::optional<Point2>) * tree_->normals.capacity();
 }
 
-IcpAnswer IcpTarget::match(std::span<const Point2> moving, const Pose2& T_fixed_start,
-                           const IcpOptions& options) const {
-  IcpAnswer answer{.T_fixed_moving = T_fixed_start};
-  if (size() == 0) return answer;
-  for (; answer.iterations < options.iterations; ++answer.iterations) {
-    const std::vector<Pair> pairs = tree_->closest(moving, answer.T_fixed_moving, options.reach_m);
-    if (pairs.size() < least_points) return answer;
+Pose2 IcpTarget::match(std::span<const Point2> moving, const Pose2& T_fixed_start,
+                       const IcpOptions& options) const {
+  Pose2 T_fixed_moving = T_fixed_start;
+  if (size() == 0) return T_fixed_moving;
+  for (int i = 0; i < options.iterations; ++i) {
+    const std::vector<Pair> pairs = tree_->closest(moving, T_fixed_moving, options.reach_m);
+    if (pairs.size() < least_points) break;
     const Eigen::Vector3d motion =
         options.to_line ? tree_->point_to_line(pairs) : point_to_point(pairs, tree_->cloud.points);
-    if (!motion.allFinite()) return answer;
-    answer.T_fixed_moving = moved(motion, answer.T_fixed_moving);
+    if (!motion.allFinite()) break;
+    T_fixed_moving = moved(motion, T_fixed_moving);
     if (motion.cwiseAbs().maxCoeff() < settled) break;
   }
-  const std::vector<Pair> pairs = tree_->closest(moving, answer.T_fixed_moving, options.reach_m);
-  double squared = 0.0;
-  for (const Pair& pair : pairs) {
-    const Point2& q = tree_->cloud.points[pair.fixed];
-    squared += (pair.moving.x_m - q.x_m) * (pair.moving.x_m - q.x_m) +
-               (pair.moving.y_m - q.y_m) * (pair.moving.y_m - q.y_m);
-  }
-  answer.matched = static_cast<int>(pairs.size());
-  answer.mean_m = std::sqrt(squared / std::max<double>(1.0, static_cast<double>(pairs.size())));
-  return answer;
+  return T_fixed_moving;
 }
 
 }  // namespace landfall::internal

@@ -16,13 +16,6 @@ struct IcpOptions {
   double reach_m = 0.5;  // points farther apart are not matched
 };
 
-struct IcpAnswer {
-  Pose2 T_fixed_moving;
-  int matched = 0;      // of the moving points
-  double mean_m = 0.0;  // distance of those, root mean square
-  int iterations = 0;
-};
-
 // The points that others are matched to, with the normals of the lines through their neighbours.
 class IcpTarget {
  public:
@@ -33,8 +26,9 @@ class IcpTarget {
 
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] std::size_t memory_bytes() const;
-  [[nodiscard]] IcpAnswer match(std::span<const Point2> moving, const Pose2& T_fixed_start,
-                                const IcpOptions& options) const;
+  // T_fixed_moving from a start near it; the start where too few points have one within reach.
+  [[nodiscard]] Pose2 match(std::span<const Point2> moving, const Pose2& T_fixed_start,
+                            const IcpOptions& options) const;
 
  private:
   struct Tree;

@@ -58,8 +58,7 @@ Pose2 match_scans(const Scan& before, const Scan& after, const Pose2& T_before_s
   const bool to_line = options.matcher == ScanMatcher::icp_point_to_line;
   return internal::IcpTarget(std::move(fixed), to_line)
       .match(moving, T_before_start,
-             {.to_line = to_line, .iterations = options.iterations, .reach_m = options.reach_m})
-      .T_fixed_moving;
+             {.to_line = to_line, .iterations = options.iterations, .reach_m = options.reach_m});
 }
 
 }  // namespace landfall

@@ -214,6 +214,19 @@ TEST_F(SearchInARoom, ABudgetBeyondAllClocksIsNone) {
   }
 }
 
+// The map's origin is free here: what was not computed must not pass for the pose (0, 0, 0).
+TEST(TimeBudget, PosesThatNobodyLookedAtAreNoAnswer) {
+  const PreparedMap map(furnished_room({-4.0, -3.0, 0.0}));
+  const Scan scan = look(map, testing::full_circle(120), {0.3, 0.2, 0.1});
+  for (const char* method : {"pso", "icp", "icp_point_to_line", "angle_histogram", "fsdn"}) {
+    const SearchResult result =
+        search(map, {Anywhere{}}, scan, {.method = method, .rotation_step_rad = 0.05, .time_budget_s = 1e-9});
+    EXPECT_TRUE(result.hypotheses.empty()) << method;
+    EXPECT_EQ(result.counts.poses_scored, 0) << method;
+    EXPECT_THAT(result.reason, HasSubstr("time budget")) << method;
+  }
+}
+
 // `grid` casts the scan's beams from each pose that it compares, and those it answers once more.
 TEST_F(SearchInARoom, RaysThatTellPosesApartAreCounted) {
   SearchOptions options = coarse;
