@@ -56,7 +56,7 @@ double elsewhere_weight(double share, double lead_nats);
 inline constexpr double elsewhere_odds = 0.05;
 
 inline double share_of(std::int32_t score, std::size_t points) {
-  return static_cast<double>(score) / (255.0 * static_cast<double>(points));
+  return static_cast<double>(score) / (255.0 * static_cast<double>(std::max<std::size_t>(1, points)));
 }
 
 }  // namespace landfall::internal

@@ -7,11 +7,19 @@
 #include "landfall/error.hpp"
 
 namespace landfall {
+namespace {
+
+// Far outside of any grid stays outside, and so does what is no number.
+int whole_cells(double cells) {
+  constexpr double farthest = 1 << 30;
+  return static_cast<int>(std::floor(std::max(-farthest, std::min(farthest, cells))));
+}
+
+}  // namespace
 
 CellIndex GridMap::cell_of(const Point2& p_map) const {
   const Point2 p_grid = inverse(T_map_grid) * p_map;
-  return {static_cast<int>(std::floor(p_grid.x_m / resolution_m)),
-          static_cast<int>(std::floor(p_grid.y_m / resolution_m))};
+  return {whole_cells(p_grid.x_m / resolution_m), whole_cells(p_grid.y_m / resolution_m)};
 }
 
 Point2 GridMap::center_of(CellIndex cell) const {

@@ -71,7 +71,7 @@ class Judge {
     const Eigen::Vector3d pose(T_grid_robot.x_m / lattice.resolution_m,
                                T_grid_robot.y_m / lattice.resolution_m, T_grid_robot.theta_rad);
     return linearise(query_.map, query_.points, pose, Residual::lack).field /
-           static_cast<double>(query_.points.size());
+           static_cast<double>(std::max<std::size_t>(1, query_.points.size()));
   }
 
   // Of eight neighbours, and a turn to either side, that lie near where the search began.

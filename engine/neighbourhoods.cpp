@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 #include <unordered_map>
 
 #include "kernels/score_block.hpp"
@@ -12,8 +13,9 @@ std::vector<Neighbourhood> neighbourhoods(const Query& query, const std::vector<
                                           std::size_t most, std::size_t most_members) {
   const Lattice& lattice = query.lattice;
   const int side = kernels::block_cells * lattice.step_cells;
-  const int headings =
-      std::max(1, static_cast<int>(query.options.distinct_rotation_rad / lattice.heading_step_rad()));
+  constexpr double all_rad = 4.0 * std::numbers::pi;  // no headings are distinct
+  const double width_rad = std::min(query.options.distinct_rotation_rad, all_rad);
+  const int headings = std::max(1, static_cast<int>(width_rad / lattice.heading_step_rad()));
   std::vector<Neighbourhood> places;
   std::unordered_map<std::uint64_t, std::size_t> place_at;
   for (std::size_t i = 0; i < candidates.size(); ++i) {

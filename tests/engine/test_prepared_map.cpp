@@ -73,6 +73,16 @@ TEST(PreparedMap, RefusesWhatCannotBePrepared) {
   }
 }
 
+TEST(GridMap, PointsHoweverFarHaveACellOutside) {
+  const GridMap grid = testing::empty_map(8, 6, 0.5, {1.0, 2.0, 0.0});
+  EXPECT_EQ(grid.cell_of({1.2, 4.9}), (CellIndex{.col = 0, .row = 5}));
+  EXPECT_EQ(grid.cell_of({0.9, 5.1}), (CellIndex{.col = -1, .row = 6}));
+  const CellIndex far = grid.cell_of({1e12, -1e300});
+  EXPECT_GT(far.col, grid.width_cells);
+  EXPECT_LT(far.row, 0);
+  EXPECT_FALSE(grid.contains(grid.cell_of({std::numeric_limits<double>::quiet_NaN(), 3.0})));
+}
+
 TEST(FreeMask, HoldsFreeCellsOfTheStep) {
   const PreparedMap map(testing::drawn_map({"..?..",  //
                                             ".....",  //

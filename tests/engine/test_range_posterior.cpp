@@ -103,7 +103,7 @@ TEST(Neighbourhoods, AreBlocksOfCellsAndRangesOfHeadingsInTheOrderOfScores) {
   const internal::Domain domain = internal::make_domain({Anywhere{}}, lattice, map.state().free_mask(0.0, 1));
   const Scan scan = testing::look(map, testing::full_circle(8), {3.0, 3.0, 0.0});
   const internal::EndPoints points = internal::make_end_points(scan, lattice.resolution_m);
-  const SearchOptions options;  // 10 degrees: two headings
+  SearchOptions options;  // 10 degrees: two headings
   const internal::Query query{.map = map.state(),
                               .scan = scan,
                               .points = points,
@@ -121,6 +121,8 @@ TEST(Neighbourhoods, AreBlocksOfCellsAndRangesOfHeadingsInTheOrderOfScores) {
   using Places = std::vector<internal::Neighbourhood>;
   EXPECT_EQ(internal::neighbourhoods(query, candidates, 8, 2), (Places{{0, 2}, {1}, {3}}));
   EXPECT_EQ(internal::neighbourhoods(query, candidates, 1, 8), (Places{{0, 2, 4}}));
+  options.distinct_rotation_rad = 1e12;
+  EXPECT_EQ(internal::neighbourhoods(query, candidates, 8, 2), (Places{{0, 2}, {1}}));
 }
 
 }  // namespace

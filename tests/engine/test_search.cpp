@@ -227,6 +227,22 @@ TEST(TimeBudget, PosesThatNobodyLookedAtAreNoAnswer) {
   }
 }
 
+// So far away that no point counts: a share of nothing is no perfect one.
+TEST_F(SearchInARoom, EchoesBeyondAllMapsProveNothing) {
+  const auto far_sighted = testing::full_circle(8, 1e6);
+  const Scan far{.sensor = far_sighted, .ranges_m = std::vector<float>(8, 4e5F)};
+  std::size_t offered = 0;
+  for (const MethodInfo& method : methods()) {
+    SearchOptions options = coarse;
+    options.method = method.name;
+    const SearchResult result = search(map, {Window{T_map_robot, 0.3, 0.3, 0.2}}, far, options);
+    EXPECT_EQ(result.verdict, Verdict::lost) << method.name;
+    for (const Hypothesis& one : result.hypotheses) EXPECT_LT(one.probability, 0.01) << method.name;
+    offered += result.hypotheses.size();
+  }
+  EXPECT_GT(offered, 0U);  // by scan matchers: their starts
+}
+
 // `grid` casts the scan's beams from each pose that it compares, and those it answers once more.
 TEST_F(SearchInARoom, RaysThatTellPosesApartAreCounted) {
   SearchOptions options = coarse;

@@ -36,7 +36,8 @@ struct GridMap {
   [[nodiscard]] Occupancy at(CellIndex cell) const {
     return contains(cell) ? cells[index(cell)] : Occupancy::unknown;
   }
-  // The cell that holds a point of the map frame; it may lie outside the grid.
+  // The cell that holds a point of the map frame; it may lie outside the grid, by no more than
+  // 2^30 cells.
   [[nodiscard]] CellIndex cell_of(const Point2& p_map) const;
   // The centre of a cell, in the map frame.
   [[nodiscard]] Point2 center_of(CellIndex cell) const;
