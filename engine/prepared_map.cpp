@@ -169,10 +169,11 @@ std::size_t PreparedState::memory_bytes() const {
   const std::scoped_lock reduced_lock(reduced_mutex_);
   for (const auto& [factor, grid] : reduced_grids_) bytes += grid.capacity();
   const std::scoped_lock spectra_lock(spectra_mutex_);
-  for (const auto& [reach, spectra] : spectra_) bytes += spectra->memory_bytes();
+  for (const auto& [reach, spectra] : spectra_)
+    if (spectra != nullptr) bytes += spectra->memory_bytes();  // null: building it failed
   const std::scoped_lock lock(masks_mutex_);
   for (const auto& [key, cells] : free_cells_) {
-    bytes += 8 * cells.mask->words.capacity();
+    if (cells.mask != nullptr) bytes += 8 * cells.mask->words.capacity();
     if (const auto* tiles = cells.tiles.if_built()) bytes += tiles->memory_bytes();
   }
   return bytes;

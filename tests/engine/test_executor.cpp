@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <string>
 
+#include "engine/prepared_state.hpp"
 #include "executors.hpp"
 #include "landfall/error.hpp"
 #include "landfall/search.hpp"
@@ -40,6 +43,22 @@ TEST(Executors, NoNameGivesTheEnvironmentsAgain) {
     ASSERT_TRUE(internal::select_executor(""));
     EXPECT_EQ(active_executor(), of_environment);
   }
+}
+
+// The parts that one call could not build are built by the next, and count nothing meanwhile.
+TEST(Executors, APartWhoseBuildingFailedHoldsNothing) {
+  const char* value = std::getenv("LANDFALL_EXECUTOR");
+  const std::optional<std::string> before =
+      value == nullptr ? std::nullopt : std::optional<std::string>(value);
+  const PreparedMap map(testing::empty_room(80, 60, 0.1));
+  const std::size_t bare = map.memory_bytes();
+  ::setenv("LANDFALL_EXECUTOR", "nobody", 1);
+  ASSERT_TRUE(internal::select_executor(nullptr));
+  EXPECT_THROW((void)map.state().free_mask(0.3, 1), Error);
+  EXPECT_EQ(map.memory_bytes(), bare);
+  before ? ::setenv("LANDFALL_EXECUTOR", before->c_str(), 1) : ::unsetenv("LANDFALL_EXECUTOR");
+  EXPECT_GT(map.state().free_mask(0.3, 1)->count(), 0);
+  EXPECT_GT(map.memory_bytes(), bare);
 }
 
 // Run by ctest with LANDFALL_EXECUTOR set, see CMakeLists.txt.
