@@ -62,12 +62,13 @@ Scan scan_of(const std::vector<Point2>& end_points, const Scan& first) {
   Scan scan{.stamp_s = first.stamp_s, .T_odom_robot = first.T_odom_robot, .T_map_robot = first.T_map_robot};
   for (const Point2& p_robot : end_points) {
     const double range_m = std::hypot(p_robot.x_m, p_robot.y_m);
+    if (!(static_cast<float>(range_m) > 0.0F)) continue;  // in the centre: no beam from there ends in it
     sensor->beams.push_back(
         {.T_robot_beam = {0.0, 0.0, std::atan2(p_robot.y_m, p_robot.x_m)}, .range_max_m = 2.0 * range_m});
     scan.ranges_m.push_back(static_cast<float>(range_m));
   }
   // A scan has a beam at least: one that reads nothing.
-  if (end_points.empty()) {
+  if (sensor->beams.empty()) {
     sensor->beams.emplace_back();
     scan.ranges_m.push_back(std::numeric_limits<float>::quiet_NaN());
   }

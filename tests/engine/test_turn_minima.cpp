@@ -105,6 +105,7 @@ TEST(TurnMinima, NoiseAloneDoesNotBreakAPlateau) {
 TEST(TurnMinima, ANarrowMinimumIsNoPlateau) {
   const std::vector<EndPoint> points = end_points(merge_turn_minima(turn_of(
       [](double at_deg) { return at_deg == 100.0 || at_deg == 105.0 ? 2.0 : 3.0 + at_deg / 100.0; })));
+  EXPECT_FALSE(points.empty());
   for (const EndPoint& point : points) EXPECT_EQ(point.count, 1) << point.bearing_deg;
 }
 
@@ -170,6 +171,17 @@ TEST(TurnMinima, TakesTheMountsIntoAccount) {
   ASSERT_EQ(points.size(), 1U);
   EXPECT_NEAR(points[0].bearing_deg, 130.0, 1e-6);
   EXPECT_NEAR(points[0].distance_m, 2.05, 1e-6);
+}
+
+// A sensor that looks across the robot's centre: what stands there lies in no direction from it.
+TEST(TurnMinima, AnEchoInTheTurnsCentreIsNoBeam) {
+  const auto inwards = std::make_shared<const Sensor>(
+      Sensor{.name = "inwards", .beams = {{.T_robot_beam = {-0.5, 0.0, 0.0}, .range_max_m = 9.0}}});
+  std::vector<Scan> turn(4, Scan{.sensor = inwards, .ranges_m = {3.0F}});
+  turn[0].ranges_m = {0.5F};
+  const Scan scan = merge_turn_minima(turn);
+  EXPECT_NO_THROW(validate(scan));
+  EXPECT_EQ(count_valid(scan), 3);
 }
 
 TEST(TurnMinima, NothingIsLeftOfATurnWithoutEchoes) {
