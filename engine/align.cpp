@@ -28,11 +28,6 @@ constexpr double least_sigma_rad = 1e-3;
   throw Error(ErrorCode::invalid_argument, "align: " + message);
 }
 
-void check_noise(const char* field, double value) {
-  if (!(value >= 0.0) || !std::isfinite(value))
-    fail(std::string("odometry.") + field + " is " + std::to_string(value) + ", expected a number >= 0");
-}
-
 void check(std::span<const Scan> scans, std::size_t reference, const AlignOptions& options) {
   if (scans.empty()) fail("no scans, expected at least one");
   if (reference >= scans.size())
@@ -40,12 +35,7 @@ void check(std::span<const Scan> scans, std::size_t reference, const AlignOption
          std::to_string(scans.size()));
   if (!(options.resolution_m >= finest_m && options.resolution_m <= coarsest_m))
     fail("resolution_m is " + std::to_string(options.resolution_m) + ", expected 0.01 to 1");
-  check_noise("translation_m", options.odometry.translation_m);
-  check_noise("translation_relative", options.odometry.translation_relative);
-  check_noise("translation_per_rad_m", options.odometry.translation_per_rad_m);
-  check_noise("rotation_rad", options.odometry.rotation_rad);
-  check_noise("rotation_per_m_rad", options.odometry.rotation_per_m_rad);
-  check_noise("rotation_relative", options.odometry.rotation_relative);
+  check_odometry_noise("align", options.odometry);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     validate(scans[i]);
     if (!scans[i].T_odom_robot)

@@ -16,10 +16,7 @@ std::vector<int> consistent(std::span<const SearchResult> results, std::span<con
     throw Error(ErrorCode::invalid_argument, "consistent: " + std::to_string(results.size()) +
                                                  " results and " + std::to_string(T_odom_robot.size()) +
                                                  " odometry poses, expected as many");
-  if (!(options.jump_probability > 0.0) || !(options.jump_probability <= 1.0))
-    throw Error(ErrorCode::invalid_argument, "consistent: jump_probability is " +
-                                                 std::to_string(options.jump_probability) +
-                                                 ", expected more than 0 and at most 1");
+  internal::check_options("consistent", options);
   std::vector<std::size_t> answered;
   for (std::size_t i = 0; i < results.size(); ++i)
     if (!results[i].hypotheses.empty()) answered.push_back(i);

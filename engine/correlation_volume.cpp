@@ -8,6 +8,7 @@
 #include "engine/lattice.hpp"
 #include "engine/methods/fft/correlation_search.hpp"
 #include "engine/methods/fft/correlator.hpp"
+#include "engine/options.hpp"
 #include "engine/parallel.hpp"
 #include "engine/prepared_state.hpp"
 #include "landfall/correlation.hpp"
@@ -88,6 +89,7 @@ void check_values(std::span<const float> values, const GridMap& grid) {
 
 CorrelationVolume correlation_volume(const PreparedMap& map, const Scan& scan,
                                      const CorrelationOptions& options) {
+  internal::validate_environment();
   validate(scan);
   const internal::Lattice lattice = internal::make_lattice(map.grid(), 0.0, options.rotation_step_rad);
   const internal::EndPoints points = internal::make_end_points(scan, map.grid().resolution_m);
@@ -97,6 +99,7 @@ CorrelationVolume correlation_volume(const PreparedMap& map, const Scan& scan,
 
 CorrelationVolume correlation_volume(const GridMap& grid, std::span<const float> values, const Scan& scan,
                                      const CorrelationOptions& options) {
+  internal::validate_environment();
   validate(grid);
   validate(scan);
   internal::check_values(values, grid);

@@ -149,6 +149,7 @@ std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<co
                                  std::vector<SearchResult> results, const SearchOptions& search_options,
                                  const ConsistentOptions& options) {
   check_sequence("follow", maps, scans, results);
+  check_options("follow", options);
   std::vector<std::size_t> order(scans.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   Follower follower(maps, scans, results, search_options, options);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "landfall/align.hpp"
 
@@ -15,6 +16,9 @@ struct OdometrySigma {
 // A hypothesis is itself only good to about this much.
 inline constexpr double pose_sigma_m = 0.1;
 inline constexpr double pose_sigma_rad = 0.03;
+
+// Throws Error{invalid_argument}, under the function's name, unless all are finite and not negative.
+void check_odometry_noise(const std::string& function, const OdometryNoise& noise);
 
 // One sigma of the error of an increment.
 inline OdometrySigma odometry_sigma(const OdometryNoise& noise, const Pose2& T_before_after) {

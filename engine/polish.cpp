@@ -1,6 +1,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/options.hpp"
 #include "engine/parallel.hpp"
 #include "engine/sequence_model.hpp"
 #include "engine/settle.hpp"
@@ -77,6 +78,8 @@ std::vector<SearchResult> polish(std::span<const PreparedMap> maps, std::span<co
                                  std::span<const SearchResult> results, std::span<const int> choice,
                                  const ConsistentOptions& options, int threads) {
   check_sequence("polish", maps, scans, results);
+  check_options("polish", options);
+  validate_environment();
   if (choice.size() != results.size())
     throw Error(ErrorCode::invalid_argument, "polish: " + std::to_string(choice.size()) + " choices and " +
                                                  std::to_string(results.size()) +

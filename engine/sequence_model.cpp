@@ -50,6 +50,14 @@ void check_sequence(const std::string& function, std::span<const PreparedMap> ma
   }
 }
 
+void check_options(const std::string& function, const ConsistentOptions& options) {
+  check_odometry_noise(function, options.odometry);
+  if (!(options.jump_probability > 0.0) || !(options.jump_probability <= 1.0))
+    throw Error(ErrorCode::invalid_argument, function + ": jump_probability is " +
+                                                 std::to_string(options.jump_probability) +
+                                                 ", expected more than 0 and at most 1");
+}
+
 std::vector<Pose2> odometry_of(std::span<const Scan> scans) {
   std::vector<Pose2> T_odom_robot;
   for (const Scan& scan : scans) T_odom_robot.push_back(*scan.T_odom_robot);

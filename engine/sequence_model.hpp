@@ -47,6 +47,9 @@ class SequenceModel {
 void check_sequence(const std::string& function, std::span<const PreparedMap> maps,
                     std::span<const Scan> scans, std::span<const SearchResult> results);
 
+// The same for options out of range.
+void check_options(const std::string& function, const ConsistentOptions& options);
+
 // T_odom_robot of each scan; every one has it.
 std::vector<Pose2> odometry_of(std::span<const Scan> scans);
 

@@ -9,6 +9,7 @@
 
 #include "engine/mapping/slam/check.hpp"
 #include "engine/mapping/slam/match.hpp"
+#include "engine/options.hpp"
 #include "engine/rigid.hpp"
 #include "landfall/error.hpp"
 
@@ -148,6 +149,7 @@ class SlamState {
 
 Slam::Slam(const SlamOptions& options) {
   internal::check(options);
+  internal::validate_environment();
   state_ = std::make_unique<internal::SlamState>(options);
 }
 Slam::~Slam() = default;

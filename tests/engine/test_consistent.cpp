@@ -138,6 +138,7 @@ TEST(Consistent, RefusesWhatDoesNotFit) {
   EXPECT_THROW(consistent(std::vector<SearchResult>(2), std::vector<Pose2>(3)), Error);
   for (const double probability : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(consistent({}, {}, {.odometry = {}, .jump_probability = probability}), Error);
+  EXPECT_THROW(consistent({}, {}, {.odometry = {.rotation_rad = -0.1}}), Error);
 }
 
 }  // namespace

@@ -111,6 +111,9 @@ TEST(HoldHypothesis, OdometryPlacesAlongACorridor) {
 TEST_F(Follow, RefusesWhatDoesNotFit) {
   EXPECT_THROW(follow(std::span(&map, 1), scans, {}), Error);
   EXPECT_THROW(follow({}, scans, results), Error);
+  EXPECT_THROW(follow(std::span(&map, 1), scans, results, {}, {.odometry = {}, .jump_probability = -1.0}),
+               Error);
+  EXPECT_THROW(follow(std::span(&map, 1), scans, results, {}, {.odometry = {.translation_m = -1.0}}), Error);
   scans[2].T_odom_robot.reset();
   EXPECT_THROW(follow(std::span(&map, 1), scans, results), Error);
   EXPECT_TRUE(follow(std::span(&map, 1), {}, {}).empty());

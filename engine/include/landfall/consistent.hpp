@@ -18,7 +18,7 @@ struct ConsistentOptions {
 
 // choice[i]: index into results[i].hypotheses of the most probable sequence (Viterbi), or -1 where
 // results[i] has none. T_odom_robot[i] is odometry under results[i]; same length.
-// Throws Error{invalid_argument} where the lengths differ.
+// Throws Error{invalid_argument} where the lengths differ, and for options out of range.
 std::vector<int> consistent(std::span<const SearchResult> results, std::span<const Pose2> T_odom_robot,
                             const ConsistentOptions& options = {});
 
@@ -27,7 +27,7 @@ std::vector<int> consistent(std::span<const SearchResult> results, std::span<con
 // odometry's uncertainty, and for where map and odometry agree best. A scan that fits many places then lists
 // the one that its neighbours know. Verdicts stay; what is added comes last.
 // results[i] answers scans[i]. Throws Error{invalid_argument} where the lengths differ, a scan has no
-// T_odom_robot, or a hypothesis is on a map that is not given.
+// T_odom_robot, or a hypothesis is on a map that is not given, and for options out of range.
 std::vector<SearchResult> follow(std::span<const PreparedMap> maps, std::span<const Scan> scans,
                                  std::vector<SearchResult> results, const SearchOptions& search_options = {},
                                  const ConsistentOptions& options = {});

@@ -1,0 +1,21 @@
+#include "engine/odometry.hpp"
+
+#include "landfall/error.hpp"
+
+namespace landfall::internal {
+
+void check_odometry_noise(const std::string& function, const OdometryNoise& noise) {
+  const auto check = [&](const char* field, double value) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+      throw Error(ErrorCode::invalid_argument, function + ": odometry." + field + " is " +
+                                                   std::to_string(value) + ", expected a number >= 0");
+  };
+  check("translation_m", noise.translation_m);
+  check("translation_relative", noise.translation_relative);
+  check("translation_per_rad_m", noise.translation_per_rad_m);
+  check("rotation_rad", noise.rotation_rad);
+  check("rotation_per_m_rad", noise.rotation_per_m_rad);
+  check("rotation_relative", noise.rotation_relative);
+}
+
+}  // namespace landfall::internal
