@@ -17,6 +17,9 @@ void check_image_size(std::int64_t width, std::int64_t height, const std::string
   if (width > max_map_cells / height)
     fail_format({file}, "size", size, "at most " + std::to_string(max_map_cells) + " pixels",
                 ErrorCode::too_large);
+  if (width > max_map_side_cells || height > max_map_side_cells)
+    fail_format({file}, "size", size, "at most " + std::to_string(max_map_side_cells) + " pixels a side",
+                ErrorCode::too_large);
 }
 
 }  // namespace landfall::io

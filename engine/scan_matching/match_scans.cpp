@@ -45,6 +45,8 @@ std::vector<Point2> end_points(const Scan& scan, double range_min_m) {
 Pose2 match_scans(const Scan& before, const Scan& after, const Pose2& T_before_start,
                   const ScanMatchOptions& options) {
   check(options);
+  if (!is_finite(T_before_start))
+    throw Error(ErrorCode::invalid_argument, "match_scans: T_before_start is not finite");
   validate(before);
   validate(after);
   const std::vector<Point2> moving = end_points(after, options.range_min_m);

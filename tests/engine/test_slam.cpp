@@ -130,6 +130,8 @@ TEST(Slam, BadInputIsNamed) {
   EXPECT_NE(message_of({.swarm = {.particles = 2}}).find("swarm.particles is 2"), std::string::npos);
   EXPECT_NE(message_of({.least_agreement = 1.5}).find("least_agreement"), std::string::npos);
   EXPECT_NE(message_of({.log_odds_miss = 0.1}).find("log_odds_miss"), std::string::npos);
+  EXPECT_NE(message_of({.occupied_log_odds = 0.3, .free_log_odds = 0.3}).find("free_log_odds"),
+            std::string::npos);
   EXPECT_THROW((void)slam({}), Error);
   Slam mapping;
   EXPECT_THROW(mapping.add(Scan{}), Error);
@@ -206,6 +208,7 @@ TEST(MatchScans, TooFewPointsStayAtTheStart) {
     EXPECT_EQ(match_scans(drive.scans[0], blind, {0.1, 0.2, 0.3}, {.matcher = matcher}),
               (Pose2{0.1, 0.2, 0.3}));
   EXPECT_THROW((void)match_scans(drive.scans[0], blind, {}, {.bin_m = 0.0}), Error);
+  EXPECT_THROW((void)match_scans(drive.scans[0], drive.scans[0], {NAN, 0.0, 0.0}), Error);
 }
 
 }  // namespace

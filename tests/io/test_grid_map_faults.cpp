@@ -109,6 +109,8 @@ TEST_F(GridMapFaults, PromisesOfHugeImagesTakeNoMemory) {
     expect_image_error(start + " 99999999999999999999 1 255\n", ErrorCode::too_large, {"width"});
     expect_image_error(start + " 999999999999999999 999999999999999999 255\n", ErrorCode::too_large,
                        {"size"});
+    expect_image_error(start + " 70000 2 255\n", ErrorCode::too_large,
+                       {"floor.pgm: size: found 70000 x 2 pixels", std::to_string(max_map_side_cells)});
     // Below the limit, but the file holds next to nothing of it.
     expect_image_error(start + " 30000 30000 255\n0 0", format, {"pixels: found", "truncated"});
   }

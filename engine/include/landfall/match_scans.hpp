@@ -26,7 +26,7 @@ struct ScanMatchOptions {
 
 // T_before_after: where the later scan was taken, in the earlier one's robot frame. From a start near it;
 // where a scan has too few points, the start. Throws Error{invalid_argument}: a scan that does not validate,
-// an option out of range.
+// a start that is not finite, an option out of range.
 Pose2 match_scans(const Scan& before, const Scan& after, const Pose2& T_before_start = {},
                   const ScanMatchOptions& options = {});
 

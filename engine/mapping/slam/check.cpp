@@ -47,7 +47,7 @@ void check(const SlamOptions& options) {
   require("log_odds_hit", options.log_odds_hit, 0.001, most, "0.001 to 30");
   require("log_odds_miss", options.log_odds_miss, -most, -0.001, "-30 to -0.001");
   require("occupied_log_odds", options.occupied_log_odds, -most, most, "-30 to 30");
-  require("free_log_odds", options.free_log_odds, -most, options.occupied_log_odds,
+  require("free_log_odds", options.free_log_odds, -most, std::nextafter(options.occupied_log_odds, -infinity),
           "less than occupied_log_odds");
 }
 
