@@ -2,9 +2,11 @@
 #pragma once
 
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 
 #include <cstdint>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -19,6 +21,14 @@ struct PoseArgument : Pose2 {};
 
 // An array of shape (poses, 3), or a list of poses: NumPy reads them alike.
 struct PosesArgument : ArrayLike<double> {};
+
+// The cells of a grid: bytes as they are; other numbers as they are too, for as bytes -1 would be 255 and 0.9
+// would be 0.
+struct CellsArgument {
+  bool are_bytes = true;
+  ArrayLike<std::uint8_t> bytes{};
+  ArrayLike<double> numbers{};
+};
 
 // A prior of any kind.
 struct PriorArgument : PosePrior {};
@@ -51,6 +61,23 @@ struct nanobind::detail::type_caster<landfall::python::PosesArgument> {
 
   bool from_python(handle source, std::uint8_t, cleanup_list*) noexcept {
     return try_cast(source, static_cast<landfall::python::ArrayLike<double>&>(value));
+  }
+};
+
+template <>
+struct nanobind::detail::type_caster<landfall::python::CellsArgument> {
+  NB_TYPE_CASTER(landfall::python::CellsArgument, const_name("numpy.typing.ArrayLike"))
+
+  bool from_python(handle source, std::uint8_t, cleanup_list*) noexcept {
+    try {
+      const object array = module_::import_("numpy").attr("asarray")(source);
+      const std::string type = nanobind::cast<std::string>(array.attr("dtype").attr("name"));
+      value.are_bytes = type == "uint8" || type == "bool";
+      return value.are_bytes ? try_cast(array, value.bytes) : try_cast(array, value.numbers);
+    } catch (...) {  // not an array: the caller sees a TypeError with the signature
+      PyErr_Clear();
+      return false;
+    }
   }
 };
 

@@ -32,18 +32,24 @@ Volume scores_of(nb::handle self) {
                 self);
 }
 
-std::span<const float> square_values(const ArrayLike<float>& values, const char* what) {
+std::span<const float> values_of_shape(const ArrayLike<float>& values, const std::vector<std::size_t>& wanted,
+                                       const char* what) {
   const std::vector<std::size_t> shape = shape_of(values);
-  if (shape.size() != 2)
+  if (shape != wanted)
     throw Error(ErrorCode::invalid_argument,
-                std::string(what) + " of shape " + shape_text(shape) + ", expected two dimensions");
+                std::string(what) + " of shape " + shape_text(shape) + ", expected " + shape_text(wanted));
   return {values.array.data(), values.array.size()};
+}
+
+std::vector<std::size_t> shape_of(const GridMap& grid) {
+  return {static_cast<std::size_t>(grid.height_cells), static_cast<std::size_t>(grid.width_cells)};
 }
 
 CorrelationVolume volume_of(const PreparedMap& map, const Scan& scan, double rotation_step_rad,
                             const std::optional<ArrayLike<float>>& values, int threads) {
   const CorrelationOptions options{.rotation_step_rad = rotation_step_rad, .threads = threads};
-  const auto given = values ? std::optional(square_values(*values, "values")) : std::nullopt;
+  const auto given =
+      values ? std::optional(values_of_shape(*values, shape_of(map.grid()), "values")) : std::nullopt;
   const nb::gil_scoped_release released;
   return given ? correlation_volume(map.grid(), *given, scan, options)
                : correlation_volume(map, scan, options);
@@ -118,7 +124,8 @@ void bind_extended_robot(nb::module_& module) {
   module.def(
       "blurred_map",
       [](const GridMap& grid, const ArrayLike<float>& mask, int times) {
-        const std::span<const float> values = square_values(mask, "mask");
+        const std::size_t rows = mask.array.ndim() > 0 ? mask.array.shape(0) : 0;
+        const std::span<const float> values = values_of_shape(mask, {rows, rows}, "mask");
         std::vector<float> blurred;
         {
           const nb::gil_scoped_release released;

@@ -22,7 +22,15 @@ namespace {
 
 static_assert(sizeof(Occupancy) == 1 && sizeof(Wall) == 4 * sizeof(double));
 
-GridMap make_grid(const ArrayLike<std::uint8_t>& cells, double resolution_m, const Pose2& T_map_grid) {
+std::string number_text(double value) {
+  return nb::cast<std::string>(nb::str(nb::float_(value)));
+}
+std::string number_text(std::uint8_t value) {
+  return std::to_string(value);
+}
+
+template <class T>
+GridMap make_grid(const ArrayLike<T>& cells, double resolution_m, const Pose2& T_map_grid) {
   const std::vector<std::size_t> shape = shape_of(cells);
   if (shape.size() != 2) {
     throw Error(ErrorCode::invalid_argument,
@@ -35,11 +43,11 @@ GridMap make_grid(const ArrayLike<std::uint8_t>& cells, double resolution_m, con
               .cells = {}};
   map.cells.reserve(cells.array.size());
   for (std::size_t i = 0; i < cells.array.size(); ++i) {
-    const std::uint8_t value = cells.array.data()[i];
-    if (value > 2) {
+    const T value = cells.array.data()[i];
+    if (value != T{0} && value != T{1} && value != T{2}) {
       throw Error(ErrorCode::invalid_argument, "GridMap: cell (row " + std::to_string(i / shape[1]) +
                                                    ", column " + std::to_string(i % shape[1]) + ") is " +
-                                                   std::to_string(value) +
+                                                   number_text(value) +
                                                    ", expected 0 (free), 1 (occupied) or 2 (unknown)");
     }
     map.cells.push_back(static_cast<Occupancy>(value));
@@ -104,13 +112,14 @@ void bind_grid_map(nb::module_& module) {
       "1 occupied, 2 unknown; row 0 is the bottom.")
       .def(
           "__init__",
-          [](GridMap* self, const ArrayLike<std::uint8_t>& cells, double resolution_m,
-             const PoseArgument& T_map_grid) {
-            new (self) GridMap(make_grid(cells, resolution_m, T_map_grid));
+          [](GridMap* self, const CellsArgument& cells, double resolution_m, const PoseArgument& T_map_grid) {
+            new (self) GridMap(cells.are_bytes ? make_grid(cells.bytes, resolution_m, T_map_grid)
+                                               : make_grid(cells.numbers, resolution_m, T_map_grid));
           },
           "cells"_a, "resolution_m"_a, "T_map_grid"_a = PoseArgument{},
-          "cells: (height, width) uint8, row 0 at the bottom. T_map_grid: the lower-left corner of cell\n"
-          "(0, 0) and the direction of the grid's axes. Raises InvalidArgument, TooLarge.")
+          "cells: (height, width) of 0, 1 and 2, row 0 at the bottom; uint8 is read without conversion.\n"
+          "T_map_grid: the lower-left corner of cell (0, 0) and the direction of the grid's axes.\n"
+          "Raises InvalidArgument, TooLarge.")
       .def_ro("width_cells", &GridMap::width_cells)
       .def_ro("height_cells", &GridMap::height_cells)
       .def_ro("resolution_m", &GridMap::resolution_m)

@@ -132,6 +132,17 @@ void bind_sensor(nb::module_& module) {
       "An evenly spaced fan: beam i points to first_rad + i * step_rad in the mount's frame.");
 }
 
+std::vector<Pose2> odometry_of(const std::vector<Scan>& scans) {
+  std::vector<Pose2> T_odom_robot;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!scans[i].T_odom_robot)
+      throw Error(ErrorCode::invalid_argument, "merge: scan " + std::to_string(i) +
+                                                   " has no T_odom_robot, expected odometry in every scan");
+    T_odom_robot.push_back(*scans[i].T_odom_robot);
+  }
+  return T_odom_robot;
+}
+
 void bind_scan(nb::module_& module) {
   nb::class_<Scan>(module, "Scan", "What a sensor saw at one time: one range per beam.")
       .def("__init__", &init_scan, "sensor"_a, "ranges_m"_a, "stamp_s"_a = 0.0, "T_odom_robot"_a = nb::none(),
@@ -179,8 +190,8 @@ void bind_scan(nb::module_& module) {
       "merge",
       [](const std::vector<Scan>& scans, const std::optional<PosesArgument>& T_common_robot,
          std::optional<std::size_t> reference, const RelativePoseNoise& noise) {
-        if (!T_common_robot) return merge(scans);
-        const std::vector<Pose2> poses = poses_from(*T_common_robot, "merge");
+        const std::vector<Pose2> poses =
+            T_common_robot ? poses_from(*T_common_robot, "merge") : odometry_of(scans);
         const nb::gil_scoped_release released;
         return merge(scans, poses, reference.value_or(scans.empty() ? 0 : scans.size() - 1), noise);
       },
@@ -198,22 +209,26 @@ void bind_align(nb::module_& module) {
   nb::class_<OdometryNoise>(module, "OdometryNoise", "One sigma of odometry's error between two scans.")
       .def(
           "__init__",
-          [](OdometryNoise* self, double translation_m, double translation_relative, double rotation_rad,
-             double rotation_per_m_rad, double rotation_relative) {
+          [](OdometryNoise* self, double translation_m, double translation_relative,
+             double translation_per_rad_m, double rotation_rad, double rotation_per_m_rad,
+             double rotation_relative) {
             new (self) OdometryNoise{.translation_m = translation_m,
                                      .translation_relative = translation_relative,
+                                     .translation_per_rad_m = translation_per_rad_m,
                                      .rotation_rad = rotation_rad,
                                      .rotation_per_m_rad = rotation_per_m_rad,
                                      .rotation_relative = rotation_relative};
           },
           nb::kw_only(), "translation_m"_a = noise.translation_m,
-          "translation_relative"_a = noise.translation_relative, "rotation_rad"_a = noise.rotation_rad,
+          "translation_relative"_a = noise.translation_relative,
+          "translation_per_rad_m"_a = noise.translation_per_rad_m, "rotation_rad"_a = noise.rotation_rad,
           "rotation_per_m_rad"_a = noise.rotation_per_m_rad, "rotation_relative"_a = noise.rotation_relative)
-      .def_rw("translation_m", &OdometryNoise::translation_m)
-      .def_rw("translation_relative", &OdometryNoise::translation_relative)
-      .def_rw("rotation_rad", &OdometryNoise::rotation_rad)
-      .def_rw("rotation_per_m_rad", &OdometryNoise::rotation_per_m_rad)
-      .def_rw("rotation_relative", &OdometryNoise::rotation_relative);
+      .def_rw("translation_m", &OdometryNoise::translation_m, "Constant part.")
+      .def_rw("translation_relative", &OdometryNoise::translation_relative, "Per metre driven.")
+      .def_rw("translation_per_rad_m", &OdometryNoise::translation_per_rad_m, "Per radian turned.")
+      .def_rw("rotation_rad", &OdometryNoise::rotation_rad, "Constant part.")
+      .def_rw("rotation_per_m_rad", &OdometryNoise::rotation_per_m_rad, "Per metre driven.")
+      .def_rw("rotation_relative", &OdometryNoise::rotation_relative, "Per radian turned.");
 
   const AlignOptions options;
   module.def(
@@ -226,8 +241,9 @@ void bind_align(nb::module_& module) {
       },
       "scans"_a, "reference"_a = nb::none(), nb::kw_only(), "odometry"_a = noise,
       "resolution_m"_a = options.resolution_m, "threads"_a = options.threads,
-      "T_reference_robot of each scan: odometry's relative poses, polished by matching each scan to the\n"
-      "growing composite of its neighbours. Raises InvalidArgument.");
+      "T_reference_robot of each scan (the last by default): odometry's relative poses, polished by "
+      "matching\n"
+      "the scans to each other, within three sigma of odometry. Raises InvalidArgument.");
 }
 
 }  // namespace

@@ -67,9 +67,13 @@ void bind_search(nb::module_& module) {
   module.def(
       "follow",
       [](const std::vector<PreparedMap>& maps, const std::vector<Scan>& scans,
-         std::vector<SearchResult> results,
-         const SearchOptions& options) { return follow(maps, scans, std::move(results), options); },
-      "maps"_a, "scans"_a, "results"_a, "options"_a = SearchOptions{},
+         std::vector<SearchResult> results, const SearchOptions& options, const OdometryNoise& odometry,
+         double jump_probability) {
+        return follow(maps, scans, std::move(results), options,
+                      {.odometry = odometry, .jump_probability = jump_probability});
+      },
+      "maps"_a, "scans"_a, "results"_a, "options"_a = SearchOptions{}, nb::kw_only(),
+      "odometry"_a = defaults.odometry, "jump_probability"_a = defaults.jump_probability,
       nb::call_guard<nb::gil_scoped_release>(),
       "The results with more hypotheses: where a neighbour's probable ones and odometry place the robot, "
       "and\n"
@@ -79,9 +83,14 @@ void bind_search(nb::module_& module) {
   module.def(
       "polish",
       [](const std::vector<PreparedMap>& maps, const std::vector<Scan>& scans,
-         const std::vector<SearchResult>& results, const std::vector<int>& choice,
-         int threads) { return polish(maps, scans, results, choice, {}, threads); },
-      "maps"_a, "scans"_a, "results"_a, "choice"_a, "threads"_a = 0, nb::call_guard<nb::gil_scoped_release>(),
+         const std::vector<SearchResult>& results, const std::vector<int>& choice, int threads,
+         const OdometryNoise& odometry, double jump_probability) {
+        return polish(maps, scans, results, choice,
+                      {.odometry = odometry, .jump_probability = jump_probability}, threads);
+      },
+      "maps"_a, "scans"_a, "results"_a, "choice"_a, "threads"_a = 0, nb::kw_only(),
+      "odometry"_a = defaults.odometry, "jump_probability"_a = defaults.jump_probability,
+      nb::call_guard<nb::gil_scoped_release>(),
       "The results with the hypotheses that consistent() chose moved to where each scan and its neighbours,\n"
       "aligned, fit the map best together, and what the map explains from there; scores, covariances and\n"
       "probabilities stay, and so do composite scans. Raises InvalidArgument.");

@@ -62,6 +62,8 @@ def test_any_values_may_take_the_fields_place(room: PreparedMap, scan: Scan) -> 
         landfall.correlation_volume(room, scan, values=np.zeros((3, 3)))
     with pytest.raises(landfall.InvalidArgument):
         landfall.correlation_volume(room, scan, values=np.zeros(2400))
+    with pytest.raises(landfall.InvalidArgument, match=r"\(60, 40\), expected \(40, 60\)"):
+        landfall.correlation_volume(room, scan, values=np.zeros((60, 40)))
 
 
 def test_the_minimum_filter_keeps_what_faces_a_wall() -> None:
@@ -87,6 +89,8 @@ def test_masks_blur_a_map(room: PreparedMap) -> None:
         landfall.raised_cosine_mask(6)
     with pytest.raises(landfall.InvalidArgument):
         landfall.blurred_map(room.grid, np.zeros((3, 5)))
+    with pytest.raises(landfall.InvalidArgument, match=r"\(1, 9\)"):
+        landfall.blurred_map(room.grid, np.zeros((1, 9)))
 
 
 def test_a_plateau_is_one_end_point_in_its_middle() -> None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import subprocess
+import sys
 import threading
 
 import landfall
@@ -181,6 +184,40 @@ def test_polish_moves_the_chosen_to_where_all_fit(prepared, scans):
     assert [r.hypotheses[0].T_map_robot for r in untouched] == [r.hypotheses[0].T_map_robot for r in results]
     with pytest.raises(landfall.InvalidArgument, match="11 choices"):
         landfall.polish([prepared], scans, results, [0] * 11)
+
+
+def test_follow_and_polish_take_what_consistent_takes(prepared, scans):
+    results = landfall.search(prepared, None, scans[:3])
+    # A scan that is misled: to odometry as bad as this, its wrong place is as good as any.
+    misled = landfall.search(prepared, landfall.Window((6.0, 4.0, 0.0), 0.3, 0.3, 0.3), scans[1])
+    shaken = landfall.OdometryNoise(translation_m=100.0, rotation_rad=100.0)
+    listed = [results[0], misled, results[2]]
+    assert len(landfall.follow([prepared], scans[:3], listed)[1].hypotheses) > len(misled.hypotheses)
+    asked_too_widely = landfall.follow([prepared], scans[:3], listed, odometry=shaken)
+    assert len(asked_too_widely[1].hypotheses) == len(misled.hypotheses)
+    with pytest.raises(landfall.InvalidArgument, match=r"follow: jump_probability is 2"):
+        landfall.follow([prepared], scans[:3], results, jump_probability=2.0)
+    with pytest.raises(landfall.InvalidArgument, match=r"polish: odometry\.rotation_rad is -1"):
+        landfall.polish(
+            [prepared], scans[:3], results, [0] * 3, odometry=landfall.OdometryNoise(rotation_rad=-1.0)
+        )
+
+
+def test_a_wrong_instruction_set_is_named_whatever_comes_first():
+    """In a process each: the choice holds for as long as one runs."""
+    start = "import landfall as l\nfan = l.make_fan(4, 0.0, 1.5)\nscan = l.Scan(fan, [1.0] * 4)\n"
+    for use in (
+        "l.correlation_volume(l.PreparedMap(l.GridMap([[0, 1]], 0.5)), scan)",
+        "l.Slam()",
+        "l.simulate_ranges(l.PreparedMap(l.GridMap([[0, 1]], 0.5)), fan, [(0.2, 0.2, 0.0)])",
+    ):
+        done = subprocess.run(
+            [sys.executable, "-c", start + use],
+            env={**os.environ, "LANDFALL_ISA": "ABACUS"},
+            capture_output=True,
+            text=True,
+        )
+        assert "UnknownName" in done.stderr and "ABACUS" in done.stderr, use
 
 
 def test_simulated_ranges_are_exact(plan, laser):

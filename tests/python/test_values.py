@@ -40,6 +40,15 @@ def test_grid_cells_are_a_read_only_view_with_row_zero_at_the_bottom():
     assert grid.cell_of(11.3, 20.6) == (1, 2)
 
 
+def test_grid_cells_may_be_numbers_of_any_kind():
+    expected = [[1, 0, 2]]
+    for cells in (expected, np.array(expected, np.int64), np.array(expected, float)):
+        assert landfall.GridMap(cells, 0.5).cells.tolist() == expected
+    assert landfall.GridMap(np.array([[True, False]]), 0.5).cells.tolist() == [[1, 0]]
+    with pytest.raises(TypeError):
+        landfall.GridMap([["wall"]], 0.5)
+
+
 def test_views_keep_their_owner_alive():
     cells = landfall.GridMap(np.ones((4, 5), dtype=np.uint8), 0.1).cells
     field = landfall.PreparedMap(landfall.GridMap(np.ones((4, 5), dtype=np.uint8), 0.1)).field()
@@ -55,6 +64,11 @@ def test_views_keep_their_owner_alive():
         (np.zeros(4, dtype=np.uint8), 0.1, "(4)"),
         (np.zeros((2, 2), dtype=np.uint8), 0.0, "resolution"),
         (np.zeros((0, 2), dtype=np.uint8), 0.1, "0"),
+        # as bytes these would be 0, 255 and 1
+        (np.array([[0.0, 0.9]]), 0.1, "column 1) is 0.9"),
+        (np.array([[0, -1]]), 0.1, "column 1) is -1.0"),
+        ([[257, 0]], 0.1, "column 0) is 257.0"),
+        (np.array([[math.nan]]), 0.1, "is nan"),
     ],
 )
 def test_bad_grids_are_refused(cells, resolution_m, word):
@@ -117,6 +131,35 @@ def test_merge_sees_all_beams_from_the_reference(laser):
     assert len(both) == 362 and both.stamp_s == 2.0
     points = both.points_robot()
     assert points[:181] == pytest.approx(points[181:] - np.array([1.0, 0.0]), abs=1e-5)
+
+
+def test_merge_by_odometry_is_seen_from_any_reference(laser):
+    ahead = landfall.Scan(laser, np.full(181, 2.0), 1.0, T_odom_robot=(0, 0, 0))
+    turned = landfall.Scan(laser, np.full(181, 2.0), 2.0, T_odom_robot=(1, 0, 0))
+    first = landfall.merge([ahead, turned], reference=0)
+    assert first.stamp_s == 1.0
+    given = landfall.merge([ahead, turned], [(0, 0, 0), (1, 0, 0)], reference=0)
+    assert first.points_robot() == pytest.approx(given.points_robot())
+    with pytest.raises(landfall.InvalidArgument, match="reference is 2"):
+        landfall.merge([ahead, turned], reference=2)
+    with pytest.raises(landfall.InvalidArgument, match="rotation_rad is -1"):
+        landfall.merge([ahead, turned], noise=landfall.RelativePoseNoise(rotation_rad=-1.0))
+    turned.T_odom_robot = None
+    with pytest.raises(landfall.InvalidArgument, match="scan 1 has no T_odom_robot"):
+        landfall.merge([ahead, turned])
+
+
+def test_odometry_noise_has_every_part():
+    parts = {
+        "translation_m": 0.01,
+        "translation_relative": 0.02,
+        "translation_per_rad_m": 0.03,
+        "rotation_rad": 0.04,
+        "rotation_per_m_rad": 0.05,
+        "rotation_relative": 0.06,
+    }
+    noise = landfall.OdometryNoise(**parts)
+    assert {name: getattr(noise, name) for name in parts} == parts
 
 
 @pytest.mark.parametrize(
