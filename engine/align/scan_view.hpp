@@ -19,7 +19,6 @@ inline constexpr std::uint8_t unseen_value = 60;
 
 class ScanView {
  public:
-  // Throws Error{invalid_argument} where make_grid() does.
   ScanView(const Scan& scan, double resolution_m);
 
   [[nodiscard]] std::span<const SurfacePoint> points() const { return points_; }

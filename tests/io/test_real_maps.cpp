@@ -67,6 +67,7 @@ TEST(RealMaps, TruePosesOfTheQueriesAreFree) {
     SCOPED_TRACE(building);
     const GridMap map = load_grid_map(data_folder() / building / "map.yaml");
     const auto truth = load_trajectory(data_folder() / building / "truth.tum");
+    ASSERT_FALSE(truth.empty());
     const auto free = std::count_if(truth.begin(), truth.end(), [&](const StampedPose& stamped) {
       const Pose2& T_map_robot = stamped.pose;
       return map.at(map.cell_of({.x_m = T_map_robot.x_m, .y_m = T_map_robot.y_m})) == Occupancy::free;

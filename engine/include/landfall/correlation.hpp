@@ -24,7 +24,7 @@ struct CorrelationVolume {
   int headings = 0;
   int height_cells = 0;
   int width_cells = 0;
-  std::vector<float> scores;  // [heading][row][column]
+  std::vector<float> scores;  // [heading][row][column]; by FFTW they differ from run to run, within the bound
   double error_bound = 0.0;   // no score is farther from the exact sum
   int transform_rows = 0;     // size of the transforms
   int transform_cols = 0;

@@ -26,15 +26,17 @@ class PreparedState;
 
 class PreparedMap {
  public:
-  // Throws Error where validate(map) does.
+  // Throws Error where validate(map) does, and Error{invalid_argument} for a field_sigma_m that is not above
+  // 0 and at most a thousand cells.
   explicit PreparedMap(GridMap map, PrepareOptions options = {});
-  // A plan is searched on its grid (`grid` options) and verified against its own exact walls.
+  // A plan is searched on its grid (`grid` options) and verified against its own exact walls. Throws as the
+  // other does, and as to_grid().
   explicit PreparedMap(WallMap walls, GridFromWallsOptions grid = {}, PrepareOptions options = {});
 
   [[nodiscard]] const GridMap& grid() const;
   [[nodiscard]] const PrepareOptions& options() const;
   // Squared distance of each cell's centre to the nearest occupied cell's centre, in cells, exact
-  // (Felzenszwalb & Huttenlocher 2012); 2^30 in a map without occupied cells. Row by row.
+  // (Felzenszwalb & Huttenlocher 2012) up to 2^30, which is also that of a map without any. Row by row.
   [[nodiscard]] std::span<const std::int32_t> squared_distance_cells() const;
   // The likelihood field, row by row, one byte a cell.
   [[nodiscard]] std::span<const std::uint8_t> field() const;
