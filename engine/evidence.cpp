@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace landfall::internal {
 namespace {
@@ -21,6 +22,11 @@ double log_evidence(double share, std::size_t points) {
 
 double evidence_slope(double share, std::size_t points) {
   return power * fourth_root(points) / (least_misfit + std::max(0.0, 1.0 - share));
+}
+
+double log_add(double a, double b) {
+  if (a < b) std::swap(a, b);
+  return std::isinf(b) ? a : a + std::log1p(std::exp(b - a));
 }
 
 RivalMargin rival_margin(std::size_t points) {

@@ -19,6 +19,8 @@ namespace landfall::internal {
 double log_evidence(double share, std::size_t points);
 // Its derivative by the share.
 double evidence_slope(double share, std::size_t points);
+// log(exp(a) + exp(b)); either may be -infinity.
+double log_add(double a, double b);
 // What ray casting adds: the share that a beam seen through a wall costs, and one blocked earns back.
 inline constexpr double ray_share = 0.1;
 

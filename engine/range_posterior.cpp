@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/beam_model.hpp"
+#include "engine/evidence.hpp"
 #include "engine/neighbourhoods.hpp"
 #include "engine/parallel.hpp"
 #include "engine/to_raycast.hpp"
@@ -25,11 +26,6 @@ constexpr std::size_t poses_per_task = 64;
 // So much likelier than those of a place off the map are ranges that say something.
 constexpr double ranges_fail_nats = 10.0;
 constexpr double score_nats = 15.0;  // from the best score to none
-
-double log_add(double a, double b) {
-  if (a < b) std::swap(a, b);
-  return a + std::log1p(std::exp(b - a));
-}
 
 struct Sample {
   Pose2 T_map_robot;

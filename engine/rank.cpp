@@ -12,11 +12,6 @@ namespace {
 constexpr double unexplained_nats = 20.0;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
-double log_add(double a, double b) {
-  if (a < b) std::swap(a, b);
-  return std::isinf(b) ? a : a + std::log1p(std::exp(b - a));
-}
-
 // What ray casting adds to the score: an end point well behind a wall counts against the pose, even
 // where it meets another wall; one well before the wall is held against it less than the field does.
 double share_of_rays(const Verification& verification) {
