@@ -10,6 +10,7 @@
 #include "engine/align/refine_jointly.hpp"
 #include "engine/align/scan_view.hpp"
 #include "engine/align/weigh_odometry.hpp"
+#include "engine/number_text.hpp"
 #include "engine/parallel.hpp"
 #include "landfall/error.hpp"
 
@@ -34,7 +35,7 @@ void check(std::span<const Scan> scans, std::size_t reference, const AlignOption
     fail("reference is " + std::to_string(reference) + ", expected less than " +
          std::to_string(scans.size()));
   if (!(options.resolution_m >= finest_m && options.resolution_m <= coarsest_m))
-    fail("resolution_m is " + std::to_string(options.resolution_m) + ", expected 0.01 to 1");
+    fail("resolution_m is " + number_text(options.resolution_m) + ", expected 0.01 to 1");
   check_odometry_noise("align", options.odometry);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     validate(scans[i]);

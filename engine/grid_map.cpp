@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {
@@ -44,7 +45,7 @@ void validate(const GridMap& map) {
                                    std::to_string(max_map_cells) + " are taken");
   if (!(map.resolution_m > 0.0) || !std::isfinite(map.resolution_m))
     fail(ErrorCode::invalid_argument,
-         "resolution_m is " + std::to_string(map.resolution_m) + ", expected a positive number");
+         "resolution_m is " + number_text(map.resolution_m) + ", expected a positive number");
   if (!is_finite(map.T_map_grid)) fail(ErrorCode::invalid_argument, "origin is not finite");
   if (map.cells.size() != static_cast<std::size_t>(cells))
     fail(ErrorCode::invalid_argument,

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {
@@ -47,15 +48,14 @@ Lattice make_lattice(const GridMap& map, double translation_step_m, double rotat
   const double step_cells = translation_step_m == 0.0 ? 1.0 : translation_step_m / map.resolution_m;
   if (!(step_cells > 0.5) || step_cells > max_map_side_cells ||
       std::abs(step_cells - std::round(step_cells)) > 1e-6 * step_cells) {
-    throw Error(ErrorCode::invalid_argument, "option translation_step_m is " +
-                                                 std::to_string(translation_step_m) +
-                                                 ", expected 0 or a multiple of the map's resolution, " +
-                                                 std::to_string(map.resolution_m));
+    throw Error(ErrorCode::invalid_argument,
+                "option translation_step_m is " + number_text(translation_step_m) +
+                    ", expected 0 or a multiple of the map's resolution, " + number_text(map.resolution_m));
   }
   if (!(rotation_step_rad >= full_turn_rad / max_headings) || !(rotation_step_rad <= full_turn_rad)) {
-    throw Error(ErrorCode::invalid_argument,
-                "option rotation_step_rad is " + std::to_string(rotation_step_rad) + ", expected " +
-                    std::to_string(full_turn_rad / max_headings) + " to " + std::to_string(full_turn_rad));
+    throw Error(ErrorCode::invalid_argument, "option rotation_step_rad is " + number_text(rotation_step_rad) +
+                                                 ", expected " + number_text(full_turn_rad / max_headings) +
+                                                 " to " + number_text(full_turn_rad));
   }
   // A step of 2 pi / N as written by a caller may come out a hair below it: that is N, not N + 1.
   const double turns = full_turn_rad / rotation_step_rad;

@@ -1,5 +1,6 @@
 #include "engine/odometry.hpp"
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {
@@ -8,7 +9,7 @@ void check_odometry_noise(const std::string& function, const OdometryNoise& nois
   const auto check = [&](const char* field, double value) {
     if (!(value >= 0.0) || !std::isfinite(value))
       throw Error(ErrorCode::invalid_argument, function + ": odometry." + field + " is " +
-                                                   std::to_string(value) + ", expected a number >= 0");
+                                                   number_text(value) + ", expected a number >= 0");
   };
   check("translation_m", noise.translation_m);
   check("translation_relative", noise.translation_relative);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/executor.hpp"
+#include "engine/number_text.hpp"
 #include "kernels/isa.hpp"
 #include "landfall/error.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 void require(bool holds, const char* option, double value, const char* expected) {
   if (!holds)
     throw Error(ErrorCode::invalid_argument,
-                "option " + std::string(option) + " is " + std::to_string(value) + ", expected " + expected);
+                "option " + std::string(option) + " is " + number_text(value) + ", expected " + expected);
 }
 
 bool not_negative(double value) {

@@ -6,6 +6,7 @@
 
 #include "engine/distance_field.hpp"
 #include "engine/methods/grid/reduced.hpp"
+#include "engine/number_text.hpp"
 #include "engine/options.hpp"
 #include "engine/prepared_state.hpp"
 #include "engine/to_raycast.hpp"
@@ -33,8 +34,8 @@ PreparedState::PreparedState(GridMap grid, std::optional<WallMap> walls, Prepare
   const double most_sigma_m = 1000.0 * grid_.resolution_m;
   if (!(options_.field_sigma_m > 0.0) || !(options_.field_sigma_m <= most_sigma_m))
     throw Error(ErrorCode::invalid_argument,
-                "option field_sigma_m is " + std::to_string(options_.field_sigma_m) +
-                    ", expected more than 0 and at most " + std::to_string(most_sigma_m));
+                "option field_sigma_m is " + number_text(options_.field_sigma_m) +
+                    ", expected more than 0 and at most " + number_text(most_sigma_m));
 }
 
 const std::vector<std::int32_t>& PreparedState::squared_distance_cells() const {

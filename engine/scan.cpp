@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {
@@ -17,14 +18,13 @@ namespace {
 
 void validate_pose(const std::optional<Pose2>& pose, const char* field) {
   if (!pose || is_finite(*pose)) return;
-  fail(std::string("scan: ") + field + " is (" + std::to_string(pose->x_m) + ", " +
-       std::to_string(pose->y_m) + ", " + std::to_string(pose->theta_rad) + "), expected finite numbers");
+  fail(std::string("scan: ") + field + " is " + pose_text(*pose) + ", expected finite numbers");
 }
 
 void check_noise(const RelativePoseNoise& noise) {
   const auto check = [](const char* field, double value) {
     if (!(value >= 0.0) || !std::isfinite(value))
-      fail(std::string("noise of relative poses: ") + field + " is " + std::to_string(value) +
+      fail(std::string("noise of relative poses: ") + field + " is " + number_text(value) +
            ", expected a number >= 0");
   };
   check("translation_m", noise.translation_m);
@@ -96,7 +96,7 @@ void validate(const Scan& scan) {
     fail("scan: " + std::to_string(scan.ranges_m.size()) + " ranges, expected " +
          std::to_string(scan.sensor->beams.size()) + " as sensor '" + scan.sensor->name + "' has beams");
   if (!std::isfinite(scan.stamp_s))
-    fail("scan: stamp_s is " + std::to_string(scan.stamp_s) + ", expected a finite number");
+    fail("scan: stamp_s is " + number_text(scan.stamp_s) + ", expected a finite number");
   validate_pose(scan.T_odom_robot, "T_odom_robot");
   validate_pose(scan.T_map_robot, "T_map_robot");
   if (scan.parts) validate_parts(*scan.parts, scan.ranges_m.size());

@@ -11,6 +11,7 @@
 #include "engine/judge_by_readings.hpp"
 #include "engine/lattice_score.hpp"
 #include "engine/methods/table.hpp"
+#include "engine/off_map.hpp"
 #include "engine/options.hpp"
 #include "engine/parallel.hpp"
 #include "engine/range_posterior.hpp"
@@ -228,13 +229,12 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
   return result;
 }
 
-void require_on_map(const std::vector<PreparedQuestion>& maps, std::size_t priors) {
-  for (std::size_t i = 0; i < priors; ++i) {
-    const bool on_map = std::any_of(maps.begin(), maps.end(),
+void require_on_map(const std::vector<PreparedQuestion>& questions, std::span<const PreparedMap> maps,
+                    std::span<const PosePrior> priors) {
+  for (std::size_t i = 0; i < priors.size(); ++i) {
+    const bool on_map = std::any_of(questions.begin(), questions.end(),
                                     [i](const PreparedQuestion& map) { return map.domains[i].on_map; });
-    if (!on_map)
-      throw Error(ErrorCode::invalid_argument,
-                  "prior" + (priors > 1 ? " " + std::to_string(i) : "") + " lies entirely off the map");
+    if (!on_map) throw Error(ErrorCode::invalid_argument, off_map_text(priors, i, maps));
   }
 }
 
@@ -255,7 +255,7 @@ std::vector<PreparedQuestion> prepare_questions(std::span<const PreparedMap> map
     });
     questions.push_back(std::move(question));
   }
-  require_on_map(questions, priors.size());
+  require_on_map(questions, maps, priors);
   return questions;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {
@@ -18,13 +19,13 @@ constexpr std::size_t max_beams = 1'000'000;
 
 void validate_noise(const Sensor& sensor, const char* field, double value) {
   if (!std::isfinite(value) || value < 0.0)
-    fail(sensor, std::string(field) + " is " + std::to_string(value) + ", expected a finite number >= 0");
+    fail(sensor, std::string(field) + " is " + number_text(value) + ", expected a finite number >= 0");
 }
 
 void validate_beam(const Sensor& sensor, std::size_t index) {
   const Beam& beam = sensor.beams[index];
   const auto fail_beam = [&](const char* field, double value, const char* expected) {
-    fail(sensor, "beam " + std::to_string(index) + ": " + field + " is " + std::to_string(value) +
+    fail(sensor, "beam " + std::to_string(index) + ": " + field + " is " + number_text(value) +
                      ", expected " + expected);
   };
   const Pose2& mount = beam.T_robot_beam;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {
@@ -54,7 +55,7 @@ void check_options(const std::string& function, const ConsistentOptions& options
   check_odometry_noise(function, options.odometry);
   if (!(options.jump_probability > 0.0) || !(options.jump_probability <= 1.0))
     throw Error(ErrorCode::invalid_argument, function + ": jump_probability is " +
-                                                 std::to_string(options.jump_probability) +
+                                                 number_text(options.jump_probability) +
                                                  ", expected more than 0 and at most 1");
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/number_text.hpp"
 #include "engine/turn_plateaus.hpp"
 #include "engine/turn_readings.hpp"
 #include "landfall/error.hpp"
@@ -22,10 +23,10 @@ void check(std::span<const Scan> turn, const TurnMinimaOptions& options) {
   internal::check_turn(turn);
   if (!(options.equal_sigmas >= 0.0) || !std::isfinite(options.equal_sigmas))
     throw Error(ErrorCode::invalid_argument,
-                "turn: equal_sigmas is " + std::to_string(options.equal_sigmas) + ", expected a number >= 0");
+                "turn: equal_sigmas is " + number_text(options.equal_sigmas) + ", expected a number >= 0");
   if (options.plateau_weight < 0 || options.plateau_weight > 100)
     throw Error(ErrorCode::invalid_argument,
-                "turn: plateau_weight is " + std::to_string(options.plateau_weight) + ", expected 0 to 100");
+                "turn: plateau_weight is " + number_text(options.plateau_weight) + ", expected 0 to 100");
 }
 
 Point2 end_point(const TurnReading& reading) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 #include "landfall/prior.hpp"
 
@@ -13,19 +14,15 @@ namespace {
 }
 
 void require_finite(const char* field, double value) {
-  if (!std::isfinite(value)) fail(field, std::to_string(value), "a finite number");
+  if (!std::isfinite(value)) fail(field, number_text(value), "a finite number");
 }
 
 void require_width(const char* field, double value) {
-  if (!std::isfinite(value) || value < 0.0)
-    fail(field, std::to_string(value), "a number that is not negative");
+  if (!std::isfinite(value) || value < 0.0) fail(field, number_text(value), "a number that is not negative");
 }
 
 void require_pose(const char* field, const Pose2& pose) {
-  if (!is_finite(pose))
-    fail(field,
-         std::to_string(pose.x_m) + ", " + std::to_string(pose.y_m) + ", " + std::to_string(pose.theta_rad),
-         "finite numbers");
+  if (!is_finite(pose)) fail(field, pose_text(pose), "finite numbers");
 }
 
 void check(const Anywhere&, int) {}
@@ -46,7 +43,7 @@ void check(const Gaussian& gaussian, int) {
     fail("gaussian.covariance", "not symmetric", "a symmetric matrix");
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   if (solver.eigenvalues()[0] < -1e-9 * scale)
-    fail("gaussian.covariance", "a matrix with eigenvalue " + std::to_string(solver.eigenvalues()[0]),
+    fail("gaussian.covariance", "a matrix with eigenvalue " + number_text(solver.eigenvalues()[0]),
          "a positive semi-definite one");
 }
 

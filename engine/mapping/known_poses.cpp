@@ -5,6 +5,7 @@
 
 #include "engine/grid_extent.hpp"
 #include "engine/mapping/log_odds_grid.hpp"
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 #include "landfall/mapping.hpp"
 
@@ -14,8 +15,8 @@ namespace {
 void check(const MappingOptions& options) {
   const auto require = [](bool holds, const char* field, double value, const char* expected) {
     if (!holds)
-      throw Error(ErrorCode::invalid_argument, std::string("mapping: ") + field + " is " +
-                                                   std::to_string(value) + ", expected " + expected);
+      throw Error(ErrorCode::invalid_argument,
+                  std::string("mapping: ") + field + " is " + number_text(value) + ", expected " + expected);
   };
   require(options.log_odds_hit > 0.0 && std::isfinite(options.log_odds_hit), "log_odds_hit",
           options.log_odds_hit, "a positive number");

@@ -5,6 +5,7 @@
 
 #include "engine/grid_extent.hpp"
 #include "engine/mapping/log_odds_grid.hpp"
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {
@@ -16,7 +17,7 @@ void validate_cones(const Sensor& sensor, const std::string& what) {
     if (half_angle_rad > 0.0 && half_angle_rad < std::numbers::pi / 2) continue;
     throw Error(ErrorCode::invalid_argument,
                 what + ": sensor '" + sensor.name + "', beam " + std::to_string(b) + ": half_angle_rad is " +
-                    std::to_string(half_angle_rad) + ", expected a sonar's, above 0 and below pi / 2");
+                    number_text(half_angle_rad) + ", expected a sonar's, above 0 and below pi / 2");
   }
 }
 
@@ -53,7 +54,7 @@ void require_option(bool holds, const std::string& what, const char* field, doub
                     const char* expected) {
   if (!holds)
     throw Error(ErrorCode::invalid_argument,
-                what + ": " + field + " is " + std::to_string(value) + ", expected " + expected);
+                what + ": " + field + " is " + number_text(value) + ", expected " + expected);
 }
 
 }  // namespace landfall::internal

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/number_text.hpp"
 #include "engine/scan_matching/angle_histogram.hpp"
 #include "engine/scan_matching/icp.hpp"
 #include "landfall/error.hpp"
@@ -13,8 +14,8 @@ namespace {
 
 void require(bool holds, const char* field, double value, const char* expected) {
   if (holds && std::isfinite(value)) return;
-  throw Error(ErrorCode::invalid_argument, std::string("match_scans: ") + field + " is " +
-                                               std::to_string(value) + ", expected " + expected);
+  throw Error(ErrorCode::invalid_argument,
+              std::string("match_scans: ") + field + " is " + number_text(value) + ", expected " + expected);
 }
 
 void check(const ScanMatchOptions& options) {

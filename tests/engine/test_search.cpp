@@ -159,7 +159,8 @@ TEST_F(SearchInARoom, APriorEntirelyOffTheMapIsAnError) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-    EXPECT_THAT(error.what(), HasSubstr("off the map"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("prior lies entirely off the map: it is at (100, 3) m, and the map spans x "));
   }
 }
 

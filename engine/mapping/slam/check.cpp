@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/mapping/slam/evidence_grid.hpp"
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {
@@ -17,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 void require(const char* field, double value, double least, double most, const char* expected) {
   if (value >= least && value <= most && std::isfinite(value)) return;
   throw Error(ErrorCode::invalid_argument,
-              std::string("slam: ") + field + " is " + std::to_string(value) + ", expected " + expected);
+              std::string("slam: ") + field + " is " + number_text(value) + ", expected " + expected);
 }
 
 void check(const SwarmOptions& swarm) {
