@@ -7,12 +7,13 @@
 
 namespace landfall::io {
 
-// Throws Error{file_not_found} where the file is missing, not a file or cannot be read.
+// A file, or a pipe to its end. Throws Error{file_not_found} where it is missing, a directory or cannot be
+// read.
 std::string read_file(const std::filesystem::path& path);
 // The same, unpacked where it is gzipped (told by its first bytes, not by its name).
 std::string read_text_file(const std::filesystem::path& path);
-// Writes under a temporary name beside `path` and renames: readers see the old file or the new one.
-// Throws Error{file_write}.
+// Writes under a temporary name beside `path` and renames: readers see the old file or the new one. A link
+// stays, the file that it leads to is replaced. Throws Error{file_write}, for a device or a pipe too.
 void write_file(const std::filesystem::path& path, std::string_view contents);
 
 bool is_gzip(std::string_view bytes);

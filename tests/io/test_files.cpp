@@ -1,6 +1,11 @@
 // Gzip, and files that appear whole or not at all.
 #include "engine/io/file.hpp"
 
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
+
 #include "engine/io/text.hpp"
 #include "io_test.hpp"
 #include "landfall/io.hpp"
@@ -42,6 +47,24 @@ TEST_F(Files, FailedWriteKeepsTheOldFile) {
   expect_error([&] { io::write_file(at("folder"), "x"); }, ErrorCode::file_write,
                {"folder: cannot be written"});
   EXPECT_THAT(names(), ::testing::ElementsAre("folder"));
+}
+
+TEST_F(Files, WritingThroughALinkKeepsTheLink) {
+  io::write_file(at("monday.txt"), "old");
+  std::filesystem::create_symlink("monday.txt", at("latest.txt"));
+  io::write_file(at("latest.txt"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(at("latest.txt")));
+  EXPECT_EQ(read(at("monday.txt")), "new");
+}
+
+TEST_F(Files, PipesAreReadAndNeverReplaced) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  expect_error([&] { io::write_file(at("pipe"), "x"); }, ErrorCode::file_write,
+               {"pipe: cannot be written", "pipe"});
+  EXPECT_TRUE(std::filesystem::is_fifo(at("pipe")));
+  std::thread writer([&] { std::ofstream(at("pipe")) << "a line\nanother\n"; });
+  EXPECT_EQ(io::read_file(at("pipe")), "a line\nanother\n");
+  writer.join();
 }
 
 TEST_F(Files, EndingsTellMapsAndSensors) {
