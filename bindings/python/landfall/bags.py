@@ -1,4 +1,4 @@
-"""ROS 1 bags: sensor_msgs/LaserScan with nav_msgs/Odometry and tf, through PyPI's rosbags.
+"""ROS 1 and ROS 2 bags: sensor_msgs/LaserScan with nav_msgs/Odometry and tf, through PyPI's rosbags.
 
 Frames are found along tf's chain from the laser upwards (REP-105): map -> odom -> robot -> laser. The robot's
 frame is odometry's child; where a bag has neither tf nor odometry, robot and laser coincide.
@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
 
 from landfall._landfall import Beam, Log, Pose2, Scan, Sensor
 from landfall.errors import FileFormat, FileNotFound
@@ -36,13 +37,14 @@ class BagContent:
 
 
 def load_bag(path: str | PathLike[str], sensors: Mapping[str, Sensor] | None = None) -> Log:
-    """The laser scans of a ROS 1 bag, in time order, with odometry; a localizer's tf is T_map_robot.
+    """The laser scans of a ROS bag, in time order, with odometry; a localizer's tf is T_map_robot.
 
-    sensors: replaces what the messages imply, by topic. Raises FileNotFound, FileFormat (a damaged bag; a bag
-    without a laser topic, with the topics that it has).
+    path: a ROS 1 .bag; a ROS 2 folder with its metadata.yaml, or its .mcap or .db3 alone. sensors: replaces
+    what the messages imply, by topic. Raises FileNotFound, FileFormat (a damaged bag; a bag without a laser
+    topic, with the topics that it has).
     """
     bag = Path(path)
-    if not bag.is_file():
+    if not bag.exists():
         raise FileNotFound(f"{bag}: no such file")
     content = _read(bag)
     builder = _ScanBuilder(content, dict(sensors or {}))
@@ -52,8 +54,9 @@ def load_bag(path: str | PathLike[str], sensors: Mapping[str, Sensor] | None = N
 
 def _read(bag: Path) -> BagContent:
     content = BagContent()
+    undefined = get_typestore(Stores.ROS2_HUMBLE)  # before Iron, bags did not define their messages
     try:
-        with AnyReader([bag]) as reader:
+        with AnyReader([bag], default_typestore=undefined) as reader:
             topics = sorted({(c.topic, c.msgtype) for c in reader.connections})
             if not any(kind == LASER for _, kind in topics):
                 known = ", ".join(f"{topic} ({kind})" for topic, kind in topics) or "none"

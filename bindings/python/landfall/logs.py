@@ -1,4 +1,4 @@
-"""Logs: text formats through the engine, ROS 1 bags through landfall.bags, arrays."""
+"""Logs: text formats through the engine, ROS bags through landfall.bags, arrays."""
 
 from __future__ import annotations
 
@@ -10,20 +10,39 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from landfall._landfall import Log, Pose2, Scan, Sensor, load_text_log
-from landfall.errors import InvalidArgument
+from landfall.errors import FileFormat, InvalidArgument
+
+BAG_ENDINGS = (".bag", ".mcap", ".db3")
 
 
 def load_log(path: str | PathLike[str], sensors: Mapping[str, Sensor] | None = None) -> Log:
-    """The scans of a log: CARMEN text, scan lines, a sonar table (told by content), a ROS 1 bag (.bag).
+    """The scans of a log: CARMEN text, scan lines, a sonar table (told by content), or a ROS bag.
+
+    A bag is a ROS 1 .bag, a ROS 2 folder with its metadata.yaml, or a .mcap or .db3 alone.
 
     sensors: replaces what the log implies, by the log's own names (CARMEN: "front_laser", "rear_laser",
     "sonar"; scan lines: their `sensor`; bags: the laser's topic). Raises FileNotFound, FileFormat.
     """
-    if Path(path).suffix.lower() == ".bag":
+    if looks_like_a_bag(Path(path)):
         from landfall.bags import load_bag  # its dependencies take a while to import
 
         return load_bag(path, sensors)
-    return load_text_log(path, dict(sensors or {}))
+    try:
+        return load_text_log(path, dict(sensors or {}))
+    except FileFormat:
+        if _starts_as_a_bag(Path(path)):
+            raise FileFormat(f"{path}: a ROS 1 bag, expected its name to end in .bag") from None
+        raise
+
+
+def looks_like_a_bag(path: Path) -> bool:
+    """By its ending; a folder by the metadata.yaml that ROS 2 leaves in it."""
+    return path.suffix.lower() in BAG_ENDINGS or (path / "metadata.yaml").is_file()
+
+
+def _starts_as_a_bag(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(8) == b"#ROSBAG "
 
 
 def make_scans(
