@@ -9,9 +9,9 @@ from pathlib import Path
 
 import landfall
 from buildings import relocalize_all
-from landfall.pictures import draw_trajectory
 from landfall.relocalization import CONSISTENT_HYPOTHESES, Answers, Question, tie_together
 from landfall.searching import search_options
+from landfall.trajectory_picture import draw_trajectory
 from landfall.windows import Composition, odometry, single_queries, time_windows, with_motion
 
 WINDOW_S = 5.0

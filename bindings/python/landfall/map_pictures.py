@@ -16,13 +16,14 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from landfall._landfall import GridMap, Pose2
-from landfall.pictures import DPI, Box, known_box, thin
+from landfall.pictures import Box, draw_scale, known_box, save_figure, thin
 
 UNKNOWN = "#a9a9a9"
 COLORS = ListedColormap(["#ffffff", "#000000", UNKNOWN])  # measured, obstacles, unknown
-PATH, ROBOT = "#d7263d", "#0b5fa5"
+PATH, START, ROBOT = "#d7263d", "#1a9850", "#0b5fa5"
 LONGER_SIDE_IN = 8.0
 FRAMES_PER_S = 12
 FRAME_PIXELS = 640  # along the longer side
@@ -62,15 +63,18 @@ def save_built_map(grid: GridMap, path: Sequence[Pose2], file: Path) -> None:
     scale = LONGER_SIDE_IN / max(box[1] - box[0], box[3] - box[2])
     size = (max((box[1] - box[0]) * scale, 3.0) + 0.8, max((box[3] - box[2]) * scale, 3.0) + 0.6)
     figure = Figure(figsize=size, layout="constrained")
-    draw_built_map(figure.subplots(), grid, path, box)
+    axes = figure.subplots()
+    draw_built_map(axes, grid, path, box)
+    if path:
+        axes.scatter(path[0].x_m, path[0].y_m, s=30, color=START, zorder=3)
+        marks = [
+            Line2D([], [], color=PATH),
+            *(Line2D([], [], color=c, marker="o", ls="") for c in (START, ROBOT)),
+        ]
+        labels = [f"path of {len(path)} scans", "start", "end"]
+        axes.legend(marks, labels, loc="lower right", fontsize=9)
+    draw_scale(axes)
     save_figure(figure, file)
-
-
-def save_figure(figure: Figure, file: Path) -> None:
-    """Under a temporary name first."""
-    part = file.with_name(f".{file.stem}.part{file.suffix or '.png'}")
-    figure.savefig(part, dpi=DPI, facecolor="white")
-    part.replace(file)
 
 
 class GrowingMapGif:

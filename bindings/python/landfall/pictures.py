@@ -1,9 +1,8 @@
-"""Pictures: one answer on its map with its rivals, and all best poses of a log."""
+"""What pictures share: the map in metres, points and robots on it, a scale, files that appear whole."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib
@@ -15,62 +14,18 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.transforms import Affine2D
+from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
-from landfall._landfall import GridMap, Hypothesis, Pose2, PreparedMap, Scan, SearchResult
-from landfall.relocalization import Answers
+from landfall._landfall import GridMap, Pose2
+from landfall.errors import FileWrite
+from landfall.outputs import replaceable
 
 UNKNOWN_COLOR = "#d9dde1"
 MAP_COLORS = ListedColormap(["#ffffff", "#20252b", UNKNOWN_COLOR])  # free, occupied, unknown
-BEST_COLOR = "#d7263d"
-RIVAL_COLORS = ("#1f77b4", "#e68a00", "#7b3fa0", "#2e8b57", "#8c564b")
 VERDICT_COLORS = {"found": "#1a9850", "ambiguous": "#f39c12", "lost": "#d7263d"}
 DPI = 130
-HEIGHT_IN = 6.6  # of the panels of one answer
-CLOSE_UP_MARGIN_M = 1.5
-MOST_DRAWN = 9  # of one answer's hypotheses
 
 Box = tuple[float, float, float, float]  # x0, x1, y0, y1 in the map frame
-
-
-def draw_answer(
-    maps: Sequence[PreparedMap], scan: Scan, result: SearchResult, path: Path, choice: int = 0
-) -> None:
-    """The whole map with the best pose and its rivals; beside it the scan at the best pose, close up.
-
-    choice: the hypothesis that counts as the best.
-    """
-    best = result.hypotheses[choice] if result.hypotheses else None
-    map_index = best.map_index if best else 0
-    grid = maps[map_index].grid
-    box = known_box(grid)
-    ratio = min(max((box[1] - box[0]) / (box[3] - box[2]), 0.6), 1.9)
-    figure = Figure(figsize=(HEIGHT_IN * (ratio + 1.0) + 1.0, HEIGHT_IN + 1.2), layout="constrained")
-    whole, close = figure.subplots(1, 2, width_ratios=[ratio, 1.0])
-    figure.get_layout_engine().set(h_pad=0.12)  # type: ignore[union-attr, call-arg]
-    figure.suptitle(_headline(result, best, maps), fontsize=13)
-    draw_map(whole, grid, box, HEIGHT_IN * ratio)
-    if best is None:
-        close.set_axis_off()
-    else:
-        points = in_map(best.T_map_robot, scan.points_robot())
-        whole.scatter(points[:, 0], points[:, 1], s=2, color=BEST_COLOR, linewidths=0, zorder=3)
-        _draw_hypotheses(whole, result, choice, map_index)
-        _draw_close_up(close, grid, points, best.T_map_robot)
-        figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
-    _save(figure, path)
-
-
-def draw_trajectory(maps: Sequence[PreparedMap], answers: Answers, path: Path) -> None:
-    """Every query's best pose, coloured by verdict, on each map that answers lie on."""
-    used = sorted({i for i, pose in zip(answers.map_indices, answers.poses, strict=True) if pose}) or [0]
-    boxes = [known_box(maps[i].grid) for i in used]
-    width, height = _figure_size(boxes[0])
-    figure = Figure(figsize=(width * len(used), height), layout="constrained")
-    for axes, map_index, box in zip(np.atleast_1d(figure.subplots(1, len(used))), used, boxes, strict=True):
-        draw_map(axes, maps[map_index].grid, box, width)
-        _draw_verdicts(axes, answers, map_index)
-        axes.set_title(maps[map_index].name)
-    _save(figure, path)
 
 
 def draw_map(axes: Axes, grid: GridMap, box: Box, width_in: float) -> None:
@@ -129,107 +84,31 @@ def known_box(grid: GridMap) -> Box:
     return float(x0), float(x1), float(y0), float(y1)
 
 
-def _figure_size(box: Box) -> tuple[float, float]:
-    """Inches: the box's shape, its longer side 11."""
-    scale = 11.0 / max(box[1] - box[0], box[3] - box[2])
-    return max((box[1] - box[0]) * scale, 5.0), max((box[3] - box[2]) * scale, 4.0) + 0.6
-
-
-def _draw_hypotheses(axes: Axes, result: SearchResult, choice: int, map_index: int) -> None:
-    """Arrows with rank and probability; the chosen one in its own colour, on top."""
-    for rank, hypothesis in enumerate(result.hypotheses):
-        if hypothesis.map_index != map_index or (rank >= MOST_DRAWN and rank != choice):
-            continue
-        color = BEST_COLOR if rank == choice else RIVAL_COLORS[rank % len(RIVAL_COLORS)]
-        label = f"{rank + 1}: p {hypothesis.probability:.3f}, explained {hypothesis.explained:.2f}"
-        zorder = 11 if rank == choice else 10 - rank
-        _draw_robot(axes, hypothesis.T_map_robot, color, _arrow_length_m(axes), label, zorder)
-
-
-def _arrow_length_m(axes: Axes) -> float:
+def arrow_length_m(axes: Axes) -> float:
+    """Of a robot's heading, by the size of what the panel shows."""
     return 0.05 * max(abs(np.diff(axes.get_xlim())[0]), abs(np.diff(axes.get_ylim())[0]))
 
 
-def _draw_robot(
-    axes: Axes, T_map_robot: Pose2, color: str, length_m: float, label: str | None, zorder: float
-) -> None:
-    """A disc at the robot's position and an arrow along its heading."""
-    axes.scatter([T_map_robot.x_m], [T_map_robot.y_m], s=36, color=color, zorder=zorder, label=label)
-    tip = in_map(T_map_robot, np.array([[length_m, 0.0]]))[0]
-    axes.annotate(
-        "",
-        xy=tip,
-        xytext=(T_map_robot.x_m, T_map_robot.y_m),
-        zorder=zorder,
-        arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 2.2, "shrinkA": 0, "shrinkB": 0},
+def draw_scale(axes: Axes) -> None:
+    """A bar of 1, 2 or 5 times a power of ten metres, about a fifth of the panel's width."""
+    fifth_m = abs(float(np.diff(axes.get_xlim())[0])) / 5.0
+    power = 10.0 ** math.floor(math.log10(fifth_m))
+    length_m = power * max(step for step in (1.0, 2.0, 5.0) if step * power <= fifth_m)
+    bar = AnchoredSizeBar(
+        axes.transData, length_m, f"{length_m:g} m", loc="lower left", pad=0.4, borderpad=0.6, sep=4
     )
+    bar.patch.set(alpha=0.85, linewidth=0.5)
+    bar.set_zorder(20)
+    axes.add_artist(bar)
 
 
-def _draw_close_up(axes: Axes, grid: GridMap, points: np.ndarray, T_map_robot: Pose2) -> None:
-    """The echoes at the best pose, over the walls that should explain them."""
-    framed = np.vstack([points, [(T_map_robot.x_m, T_map_robot.y_m)]])
-    low, high = np.percentile(framed, [2, 98], axis=0)
-    (x, y), half = (low + high) / 2, max(float((high - low).max()) / 2 + CLOSE_UP_MARGIN_M, 3.0)
-    draw_map(axes, grid, (x - half, x + half, y - half, y + half), HEIGHT_IN)
-    axes.scatter(points[:, 0], points[:, 1], s=7, color=BEST_COLOR, linewidths=0, zorder=3, label="echoes")
-    _draw_robot(axes, T_map_robot, "#0b5fa5", 0.12 * half, "robot", zorder=5)
-    axes.legend(loc="upper right", fontsize=9)
-    axes.set_title(f"{len(points)} echoes at the best pose", fontsize=10)
-
-
-def _headline(result: SearchResult, best: Hypothesis | None, maps: Sequence[PreparedMap]) -> str:
-    if best is None:
-        return f"{result.verdict}: {result.reason}"
-    pose = best.T_map_robot
-    where = f" on {maps[best.map_index].name}" if len(maps) > 1 else ""
-    return (
-        f"{result.verdict}{where}: x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, "
-        f"heading {math.degrees(pose.theta_rad):.1f} deg   |   probability {best.probability:.3f}, "
-        f"explained {best.explained:.2f}, {result.times.total_ms:.1f} ms"
-    )
-
-
-def _draw_verdicts(axes: Axes, answers: Answers, map_index: int) -> None:
-    """Dots with heading ticks, the sure ones drawn first; a thin line where odometry ties them together."""
-    if answers.tied:
-        path = [
-            (pose.x_m, pose.y_m) if pose is not None and index == map_index else (math.nan, math.nan)
-            for pose, index in zip(answers.poses, answers.map_indices, strict=True)
-        ]
-        axes.plot(*np.array(path).reshape(-1, 2).T, color="#5b6770", linewidth=0.6, alpha=0.6, zorder=2)
-    tick_m = 0.4 * _arrow_length_m(axes)
-    for verdict, color in VERDICT_COLORS.items():
-        poses = [
-            pose
-            for pose, given, index in zip(answers.poses, answers.verdicts, answers.map_indices, strict=True)
-            if pose is not None and given == verdict and index == map_index
-        ]
-        if not poses:
-            continue
-        xyt = np.array(poses)
-        axes.quiver(
-            xyt[:, 0],
-            xyt[:, 1],
-            tick_m * np.cos(xyt[:, 2]),
-            tick_m * np.sin(xyt[:, 2]),
-            color=color,
-            angles="xy",
-            scale_units="xy",
-            scale=1,
-            width=0.002,
-            headwidth=0,
-            headlength=0,
-            headaxislength=0,
-        )
-        axes.scatter(
-            xyt[:, 0], xyt[:, 1], s=14, color=color, linewidths=0, label=f"{verdict}: {len(poses)}", zorder=3
-        )
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
-
-
-def _save(figure: Figure, path: Path) -> None:
+def save_figure(figure: Figure, path: Path) -> None:
     """PNG, or what the ending says, under a temporary name first."""
-    part = path.with_name(f".{path.stem}.part{path.suffix or '.png'}")
-    figure.savefig(part, dpi=DPI, facecolor="white")
-    part.replace(path)
+    target = replaceable(path)
+    part = target.with_name(f".{target.stem}.part{path.suffix or '.png'}")
+    try:
+        figure.savefig(part, dpi=DPI, facecolor="white")
+        part.replace(target)
+    except OSError as cause:
+        part.unlink(missing_ok=True)
+        raise FileWrite(f"{path}: cannot be written: {cause.strerror or cause}") from cause

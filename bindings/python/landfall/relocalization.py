@@ -69,7 +69,7 @@ class Tally:
             median, p95 = np.percentile(self.search_ms, [50, 95])
             rows.append(("search_ms, median", f"{median:.2f}"))
             rows.append(("search_ms, 95th percentile", f"{p95:.2f}"))
-        rows.append(("scans/s", f"{count / max(wall_s, 1e-9):.1f}"))
+        rows.append(("queries/s", f"{count / max(wall_s, 1e-9):.1f}"))
         return rows
 
 
@@ -115,16 +115,18 @@ def relocalize(
     queries: Sequence[Query],
     question: Question,
     *,
+    answers: Answers,
+    tally: Tally,
     results_file: ResultsFile,
     keep: Callable[[int], bool],
     on_progress: Callable[[int], None],
     stop: CleanStop,
-) -> tuple[Answers, Tally]:
+) -> None:
     """Asks the queries chunk by chunk until all are answered or a stop is requested.
 
+    answers, tally: filled as answers come, so that they hold what is finished where an error ends the work.
     keep(position): whether that result stays in memory. on_progress(n): n more are done.
     """
-    answers, tally = Answers(), Tally()
     size, position = 1, 0
     while position < len(queries) and not stop.requested:
         chunk = queries[position : position + size]
@@ -137,7 +139,6 @@ def relocalize(
         on_progress(len(chunk))
         position += len(chunk)
         size = _next_size(size, time.monotonic() - started_s)
-    return answers, tally
 
 
 def tie_together(answers: Answers, log: Sequence[Scan], question: Question) -> None:

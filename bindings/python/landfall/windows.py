@@ -53,14 +53,15 @@ def single_queries(count: int, every: int = 1) -> list[Query]:
 
 
 def scan_windows(count: int, size: int, disjoint: bool, every: int = 1) -> list[Query]:
-    """Windows of `size` scans: i-size+1..i for each i (every n-th), or one after the other."""
-    step = size if disjoint else every
+    """Windows of `size` scans: i-size+1..i for each i, or one after the other; every n-th of them."""
+    step = every * (size if disjoint else 1)
     return [Query(i - size + 1, i) for i in range(size - 1, count, step)]
 
 
 def time_windows(log: Sequence[Scan], seconds: float, disjoint: bool, every: int = 1) -> list[Query]:
-    """Windows of `seconds`: the scans of (t_i - seconds, t_i] for each i, or one after the other."""
-    return _disjoint_times(log, seconds) if disjoint else _sliding_times(log, seconds)[::every]
+    """The scans of (t_i - seconds, t_i] for each i, or such windows one after the other; every n-th."""
+    windows = _disjoint_times(log, seconds) if disjoint else _sliding_times(log, seconds)
+    return windows[::every]
 
 
 def _sliding_times(log: Sequence[Scan], seconds: float) -> list[Query]:

@@ -27,7 +27,7 @@ from landfall.evaluation import judge, load_estimates, report
 from landfall.interrupts import CleanStop
 from landfall.outputs import ResultsFile, make_folder, write_trajectory
 from landfall.progress import progress_bar
-from landfall.relocalization import Answers, Question, relocalize
+from landfall.relocalization import Answers, Question, Tally, relocalize
 from landfall.searching import search_options
 from landfall.windows import single_queries
 
@@ -74,12 +74,15 @@ def _make(folder: Path, seed: int) -> tuple[PreparedMap, list[Scan]]:
 def _relocalize(map: PreparedMap, scans: list[Scan], threads: int, folder: Path) -> tuple[Answers, int]:
     question = Question([map], PosePrior(Anywhere()), search_options(threads=threads))
     queries = single_queries(len(scans))
+    answers, tally = Answers(), Tally()
     with CleanStop() as stop, progress_bar() as bar, ResultsFile(folder / "results.jsonl") as results_file:
         task = bar.add_task("relocalize", total=len(queries))
-        answers, tally = relocalize(
+        relocalize(
             scans,
             queries,
             question,
+            answers=answers,
+            tally=tally,
             results_file=results_file,
             keep=lambda _: True,
             on_progress=lambda n: bar.advance(task, n),
@@ -98,7 +101,8 @@ def _print_success(folder: Path) -> None:
 
 def _draw(map: PreparedMap, scans: list[Scan], answers: Answers, folder: Path) -> None:
     """The overview, the least certain answers, and some evenly spread ones."""
-    from landfall.pictures import draw_answer, draw_trajectory  # matplotlib takes a while to import
+    from landfall.answer_picture import draw_answer  # matplotlib takes a while to import
+    from landfall.trajectory_picture import draw_trajectory
 
     for old in folder.glob("scan_*.png"):
         old.unlink()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -18,23 +21,26 @@ from landfall._landfall import (
     load_prior,
     load_sensors,
 )
-from landfall.errors import InvalidArgument, UnknownName
+from landfall.errors import FileNotFound, InvalidArgument, UnknownName
 from landfall.logs import load_log
 
 Maps = Annotated[
-    list[Path], typer.Option("--map", help="ROS map .yaml or wall plan .json; may be given several times.")
+    list[Path],
+    typer.Option(
+        "--map", metavar="<path>", help="ROS map .yaml or wall plan .json; may be given several times."
+    ),
 ]
 OneMap = Annotated[Path, typer.Option("--map", help="ROS map .yaml or wall plan .json.")]
 LogFile = Annotated[
     Path,
-    typer.Option("--log", help="CARMEN text (also gzipped), scan lines .jsonl, ROS 1 .bag, sonar table."),
+    typer.Option("--log", help="CARMEN text (also gzipped), scan lines .jsonl, ROS 1 or 2 bag, sonar table."),
 ]
 SensorFile = Annotated[
     Path | None, typer.Option("--sensor", help="Sensor .yaml that replaces the log's own, by name.")
 ]
 PriorText = Annotated[str, typer.Option("--prior", help="anywhere, place:NAME, or a prior .json.")]
 Method = Annotated[str, typer.Option("--method", help="Search method: see `landfall methods`.")]
-Threads = Annotated[int, typer.Option("--threads", help="0: all cores.")]
+Threads = Annotated[int, typer.Option("--threads", min=0, help="0: all cores.")]
 MaxHypotheses = Annotated[int, typer.Option("--max-hypotheses", help="Most hypotheses per answer.")]
 TimeBudget = Annotated[float, typer.Option("--time-budget-s", help="Per scan; 0: none.")]
 TranslationStep = Annotated[float, typer.Option("--translation-step-m", help="0: the map's resolution.")]
@@ -42,16 +48,11 @@ RotationStep = Annotated[float, typer.Option("--rotation-step-deg", help="Headin
 RobotRadius = Annotated[
     float, typer.Option("--robot-radius-m", help="A pose is possible where this disc is free.")
 ]
-Seed = Annotated[int, typer.Option("--seed", help="Of everything random.")]
+Seed = Annotated[int, typer.Option("--seed", min=0, max=2**63 - 1, help="Of everything random.")]
 
 
 def load_maps(paths: list[Path]) -> list[PreparedMap]:
-    """Each under its file's name, without the ending (the folder's where that is plain `map`)."""
-    return [load_map(path, name=_map_name(path)) for path in paths]
-
-
-def _map_name(path: Path) -> str:
-    return path.resolve().parent.name if path.stem == "map" else path.stem
+    return [load_map(path) for path in paths]
 
 
 def read_prior(text: str, maps: list[Path]) -> PosePrior:
@@ -60,13 +61,42 @@ def read_prior(text: str, maps: list[Path]) -> PosePrior:
         return PosePrior(Anywhere())
     if text.startswith("place:"):
         return _place(text.removeprefix("place:"), maps)
+    if not Path(text).suffix and not Path(text).exists():
+        raise UnknownName(f"--prior {text}: expected anywhere, place:NAME, or a prior .json")
     return load_prior(Path(text))
+
+
+@contextmanager
+def naming_prior(text: str) -> Iterator[None]:
+    """Says which prior a search refuses: one that lies off the map, say."""
+    try:
+        yield
+    except InvalidArgument as error:
+        if str(error).startswith("prior "):
+            raise InvalidArgument(f"--prior {text}: {error}") from None
+        raise
+
+
+def rotation_step_rad(rotation_step_deg: float) -> float:
+    """Radians. Raises InvalidArgument that speaks of degrees, as the option does."""
+    if not 0.01 <= rotation_step_deg <= 360.0:
+        raise InvalidArgument(f"--rotation-step-deg {rotation_step_deg:g}: expected 0.01 to 360")
+    return math.radians(rotation_step_deg)
+
+
+def require_index_range(from_index: int, to_index: int | None, scans: int, log: Path) -> None:
+    """Raises InvalidArgument where --from-index and --to-index leave no scan."""
+    if from_index >= min(scans if to_index is None else to_index, scans):
+        asked = f"--from-index {from_index}" + ("" if to_index is None else f" --to-index {to_index}")
+        raise InvalidArgument(f"{asked}: no scan is left of {log}, which has {scans}, counted from 0")
 
 
 def _place(name: str, maps: list[Path]) -> PosePrior:
     if len(maps) != 1:
         raise InvalidArgument(f"--prior place:{name}: a place is of one map, and {len(maps)} are given")
     file = maps[0].with_suffix(".places.yaml")
+    if not file.exists():
+        raise FileNotFound(f"--prior place:{name}: {file}: no such file; places are named in it")
     places = load_places(file)
     if name not in places:
         raise UnknownName(f"--prior place:{name}: {file} has no such place; it has {_quoted(places)}")

@@ -23,22 +23,25 @@ from landfall.commands.options import (
     TimeBudget,
     TranslationStep,
     load_maps,
+    naming_prior,
     read_log,
     read_prior,
+    rotation_step_rad,
 )
 from landfall.commands.tables import print_table
-from landfall.errors import InvalidArgument
+from landfall.errors import Error, InvalidArgument
 from landfall.interrupts import CleanStop
 from landfall.outputs import (
     ResultsFile,
     make_folder,
+    require_distinct,
     require_picture,
     require_writable,
     rewrite_chosen,
     write_trajectory,
 )
 from landfall.progress import progress_bar
-from landfall.relocalization import CONSISTENT_HYPOTHESES, Answers, Question, relocalize, tie_together
+from landfall.relocalization import CONSISTENT_HYPOTHESES, Answers, Question, Tally, relocalize, tie_together
 from landfall.searching import search_options
 from landfall.windows import (
     Composition,
@@ -59,7 +62,7 @@ def run(
         Path | None, typer.Option("--results", help="results.jsonl: a line per query.")
     ] = None,
     picture: Annotated[Path | None, typer.Option("--picture", help="Draw all best poses here.")] = None,
-    pictures: Annotated[int, typer.Option("--pictures", help="Draw so many single answers.")] = 0,
+    pictures: Annotated[int, typer.Option("--pictures", min=0, help="Draw so many single answers.")] = 0,
     pictures_dir: Annotated[
         Path | None, typer.Option("--pictures-dir", help="Folder of --pictures; by default beside --out.")
     ] = None,
@@ -79,7 +82,7 @@ def run(
     no_align: Annotated[bool, typer.Option("--no-align", help="Windows by odometry as it is.")] = False,
     disjoint: Annotated[bool, typer.Option("--disjoint", help="Windows one after the other.")] = False,
     min_motion_m: Annotated[
-        float, typer.Option("--min-motion-m", help="Leave out windows that moved less.")
+        float, typer.Option("--min-motion-m", min=0.0, help="Leave out windows that moved less.")
     ] = 0.0,
     consistent: Annotated[
         bool, typer.Option("--consistent", help="Choose among hypotheses by odometry over the whole log.")
@@ -107,15 +110,20 @@ def run(
         max_hypotheses=max(max_hypotheses, CONSISTENT_HYPOTHESES) if consistent else max_hypotheses,
         time_budget_s=time_budget_s,
         translation_step_m=translation_step_m,
-        rotation_step_rad=math.radians(rotation_step_deg),
+        rotation_step_rad=rotation_step_rad(rotation_step_deg),
         robot_radius_m=robot_radius_m,
         seed=seed,
     )
+    _require_windows(window_scans, window_s, window_max_scans, no_align, disjoint, min_motion_m)
     for path in (out, results):
         if path is not None:
             require_writable(path)
     if picture is not None:
         require_picture(picture)
+    require_distinct({"--out": out, "--results": results, "--picture": picture}, [*map, log, sensor])
+    pictures_dir = pictures_dir or (out or Path(".")).parent / "pictures"
+    if pictures > 0:
+        make_folder(pictures_dir)
     maps = load_maps(map)
     composition = Composition(window_max_scans, not no_align, threads)
     question = Question(maps, read_prior(prior, map), options, one_at_a_time, composition)
@@ -125,18 +133,27 @@ def run(
         raise InvalidArgument(f"{log}: {len(scans)} scans make no query with these windows")
     drawn = _evenly(len(queries), pictures)
 
+    answers, tally = Answers(), Tally()
+    failure: Error | None = None
     with CleanStop() as stop:
-        with progress_bar() as bar, ResultsFile(results) as results_file:
-            task = bar.add_task("relocalize", total=len(queries))
-            answers, tally = relocalize(
-                scans,
-                queries,
-                question,
-                results_file=results_file,
-                keep=lambda position: consistent or position in drawn,
-                on_progress=lambda n: bar.advance(task, n),
-                stop=stop,
-            )
+        try:
+            with progress_bar() as bar, ResultsFile(results) as results_file, naming_prior(prior):
+                task = bar.add_task("relocalize", total=len(queries))
+                relocalize(
+                    scans,
+                    queries,
+                    question,
+                    answers=answers,
+                    tally=tally,
+                    results_file=results_file,
+                    keep=lambda position: consistent or position in drawn,
+                    on_progress=lambda n: bar.advance(task, n),
+                    stop=stop,
+                )
+        except Error as error:
+            if not answers.queries:
+                raise
+            failure = error  # what is answered is written first
         if consistent:
             tie_together(answers, scans, question)
             if results is not None:
@@ -145,10 +162,48 @@ def run(
         if out is not None:
             write_trajectory(answers.trajectory(), out)
     print_table(tally.rows())
-    _draw(answers, scans, question, picture, drawn, pictures_dir or (out or Path(".")).parent / "pictures")
+    _draw(answers, scans, question, picture, drawn, pictures_dir)
+    _say_what_is_written(answers, out, results, picture, pictures_dir, len(drawn & set(answers.kept)))
+    if failure is not None:
+        raise failure
     if stop.requested:
         typer.echo(f"landfall: stopped after {len(answers.queries)} of {len(queries)} queries", err=True)
         raise typer.Exit(stop.exit_code)
+
+
+def _require_windows(
+    window_scans: int | None,
+    window_s: float | None,
+    window_max_scans: int,
+    no_align: bool,
+    disjoint: bool,
+    min_motion_m: float,
+) -> None:
+    """Options of windows do nothing to single scans: refused rather than passed over."""
+    if window_scans is not None or window_s is not None:
+        return
+    given = {
+        "--window-max-scans": window_max_scans > 0,
+        "--no-align": no_align,
+        "--disjoint": disjoint,
+        "--min-motion-m": min_motion_m > 0,
+    }
+    for option in (name for name, is_given in given.items() if is_given):
+        raise InvalidArgument(f"{option} is of windows: give --window-scans or --window-s too")
+
+
+def _say_what_is_written(
+    answers: Answers, out: Path | None, results: Path | None, picture: Path | None, folder: Path, drawn: int
+) -> None:
+    written = [
+        (out, f"{len(answers.trajectory())} poses"),
+        (results, f"{len(answers.queries)} results"),
+        (picture, "all best poses"),
+        (folder if drawn else None, f"{drawn} single answers"),
+    ]
+    for path, what in written:
+        if path is not None:
+            print(f"{path}: {what}")
 
 
 def _scans(path: Path, log: Log, need_odometry: bool) -> list[Scan]:
@@ -199,12 +254,13 @@ def _draw(
 ) -> None:
     if picture is None and not drawn:
         return
-    from landfall.pictures import draw_answer, draw_trajectory  # matplotlib takes a while to import
+    from landfall.answer_picture import draw_answer  # matplotlib takes a while to import
+    from landfall.trajectory_picture import draw_trajectory
 
     if picture is not None:
         draw_trajectory(question.maps, answers, picture)
     for position in sorted(drawn & set(answers.kept)):
         query = answers.queries[position]
         scan = query.scan(scans, question.composition)
-        file = make_folder(folder) / f"query_{query.last:05d}.png"
+        file = folder / f"query_{query.last:05d}.png"
         draw_answer(question.maps, scan, answers.kept[position], file, max(answers.choices[position], 0))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Annotated
 
@@ -22,8 +21,10 @@ from landfall.commands.options import (
     TimeBudget,
     TranslationStep,
     load_maps,
+    naming_prior,
     read_log,
     read_prior,
+    rotation_step_rad,
 )
 from landfall.errors import InvalidArgument
 from landfall.outputs import require_picture
@@ -53,7 +54,7 @@ def run(
         max_hypotheses=max_hypotheses,
         time_budget_s=time_budget_s,
         translation_step_m=translation_step_m,
-        rotation_step_rad=math.radians(rotation_step_deg),
+        rotation_step_rad=rotation_step_rad(rotation_step_deg),
         robot_radius_m=robot_radius_m,
         seed=seed,
     )
@@ -61,10 +62,11 @@ def run(
         require_picture(picture)
     maps = load_maps(map)
     asked = _pick(scan, index, sensor)
-    result = search_batch(maps, [read_prior(prior, map)], [asked], options)[0]
+    with naming_prior(prior):
+        result = search_batch(maps, [read_prior(prior, map)], [asked], options)[0]
     print(result.to_json(index))
     if picture is not None:
-        from landfall.pictures import draw_answer  # matplotlib takes a while to import
+        from landfall.answer_picture import draw_answer  # matplotlib takes a while to import
 
         draw_answer(maps, asked, result, picture)
 

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from landfall._landfall import GridMap, Pose2
-from landfall.map_pictures import draw_built_map, save_figure
-from landfall.pictures import Box, known_box
+from landfall.map_pictures import draw_built_map
+from landfall.pictures import Box, known_box, save_figure
 
 LABELS = {"the swarm as published": "pso_raw", "landfall: swarm, refined": "pso"}
 PANEL_IN = 4.6
