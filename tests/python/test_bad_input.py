@@ -59,7 +59,9 @@ def test_header_that_promises_too_much(files, landfall_command):
 def test_prior_off_the_map(files, landfall_command):
     prior = files.folder / "prior.json"
     prior.write_text(json.dumps({"window": {"T_map_robot": [900, 900, 0], "half_x_m": 1, "half_y_m": 1}}))
-    landfall_command("relocalize", "--map", files.map, "--log", files.log, "--prior", prior).fails_with("map")
+    landfall_command("relocalize", "--map", files.map, "--log", files.log, "--prior", prior).fails_with(
+        str(prior), "off the map", "(900, 900) m", "x -0.5 to 8.55 m, y -0.5 to 5.55 m"
+    )
 
 
 def test_unknown_place(files, landfall_command):
@@ -96,8 +98,16 @@ def test_scan_without_valid_beam_is_lost_and_the_rest_answered(files, scans, lan
         (["relocalize", "--colour", "red"], ["--colour"]),
         (["relocalize", "--threads", "many"], ["--threads"]),
         (["relocalize", "--max-hypotheses", "0"], ["max_hypotheses", "0"]),
-        (["relocalize", "--rotation-step-deg", "-1"], ["rotation_step"]),
-        (["relocalize", "--every", "0"], ["--every"]),
+        (["relocalize", "--rotation-step-deg", "-1"], ["--rotation-step-deg -1", "0.01 to 360"]),
+        (["relocalize", "--robot-radius-m", "-0.25"], ["robot_radius_m is -0.25,"]),
+        (["relocalize", "--every", "0"], ["--every 0"]),
+        (["relocalize", "--every=0"], ["--every 0"]),
+        (["relocalize", "--threads", "-1"], ["--threads -1"]),
+        (["relocalize", "--seed", "-1"], ["--seed -1"]),
+        (["relocalize", "--pictures", "-1"], ["--pictures -1"]),
+        (["relocalize", "--disjoint"], ["--disjoint", "--window-scans"]),
+        (["relocalize", "--no-align"], ["--no-align", "--window-scans"]),
+        (["relocalize", "--prior", "everywhere"], ["everywhere", "anywhere", "place:NAME"]),
         (["relocalize", "--window-s", "-1"], ["--window-s"]),
         (["relocalize", "--window-s", "2", "--window-scans", "2"], ["--window-s", "--window-scans"]),
         (["relocalize", "--window-scans", "500"], ["12 scans"]),
@@ -126,6 +136,30 @@ def test_bad_arguments(files, landfall_command, arguments, words):
 )
 def test_bad_commands(landfall_command, arguments, words):
     landfall_command(*arguments).fails_with(*words)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--bounding-box"], ["--bounding-box", "tbf", "known-poses"]),
+        (["--matcher", "branch_and_bound"], ["--matcher", "slam"]),
+        (["--method", "tbf", "--animation", "a.gif"], ["--animation", "slam", "tbf"]),
+        (["--method", "slam", "--animation", "a.mp4"], ["a.mp4", ".gif"]),
+        (["--method", "slam", "--odometry"], ["--odometry", "slam"]),
+        (["--out", "m.png"], ["m.png", ".yaml"]),
+        (["--from-index", "12"], ["--from-index 12", "12"]),
+        (["--from-index", "3", "--to-index", "3"], ["--to-index 3", "12"]),
+    ],
+)
+def test_options_that_map_refuses(files, landfall_command, options, words):
+    out = [] if "--out" in options else ["--out", files.folder / "m.yaml"]
+    landfall_command("map", "--log", files.log, *out, *options).fails_with(*words)
+
+
+def test_lines_of_the_truth_that_are_not_there(files, landfall_command):
+    landfall_command(
+        "evaluate", "--estimate", files.truth, "--truth", files.truth, "--exclude-index", "3,12"
+    ).fails_with("12", "12 lines")
 
 
 def test_map_needs_poses(files, landfall_command):

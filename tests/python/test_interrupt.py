@@ -9,6 +9,7 @@ import time
 import landfall
 import pytest
 from conftest import landfall_process
+from landfall.map_pictures import GrowingMapGif
 
 
 @pytest.mark.parametrize("signal_number", [signal.SIGINT, signal.SIGTERM])
@@ -43,3 +44,20 @@ def wait_until(condition, process, limit_s=30.0):
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < until
         time.sleep(0.02)
+
+
+def test_slam_stops_with_the_map_so_far(files, landfall_command, monkeypatch):
+    def add_and_stop_at_the_third(gif, grid, path):
+        add(gif, grid, path)
+        if len(path) == 3:
+            signal.raise_signal(signal.SIGINT)
+
+    add = GrowingMapGif.add
+    monkeypatch.setattr(GrowingMapGif, "add", add_and_stop_at_the_third)
+    out, path, gif = files.folder / "made.yaml", files.folder / "path.tum", files.folder / "made.gif"
+    done = landfall_command(
+        "map", "--method", "slam", "--log", files.log, "--out", out, "--trajectory", path, "--animation", gif
+    )
+    assert done.code == 130 and "stopped after 3 of 12 scans" in done.err
+    assert [stamp_s for stamp_s, _ in landfall.load_trajectory(path)] == [100.0, 101.0, 102.0]
+    assert (landfall.load_grid_map(out).cells == 1).any() and gif.stat().st_size > 0

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import os
+import re
 import sys
 from collections.abc import Sequence
 from typing import Annotated
@@ -23,10 +25,12 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
 )
 for command in (demo, relocalize, search, map, simulate, evaluate, convert, methods, reproduce):
     name = command.__name__.rsplit(".", 1)[-1]
-    app.command(name)(command.run)
+    summary = " ".join((command.run.__doc__ or "").split("\n\n")[0].split())
+    app.command(name, short_help=summary)(command.run)
 
 
 def _print_version(wanted: bool) -> None:
@@ -50,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return app(args=given, prog_name="landfall", standalone_mode=False) or 0
     except UsageProblem as problem:
-        return _complain(problem.format_message())
+        return _complain(_with_value(problem.format_message(), given))
     except Error as error:
         return _complain(str(error))
     except (KeyboardInterrupt, typer.Abort):
@@ -60,6 +64,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     except OSError as cause:  # a full disk, say
         return _complain(str(cause))
+
+
+def _with_value(message: str, given: Sequence[str]) -> str:
+    """Click's "Invalid value for '--every': ..." with the value that was given."""
+    match = re.match(r"Invalid value for '(--[\w-]+)': (.*)", message, re.DOTALL)
+    if match is None:
+        return message
+    option, rest = match.groups()
+    values = [b for a, b in itertools.pairwise(given) if a == option]
+    values += [word.removeprefix(f"{option}=") for word in given if word.startswith(f"{option}=")]
+    return f"{option} {' '.join(values)}: {rest}"
 
 
 def _complain(message: str) -> int:

@@ -40,7 +40,7 @@ OPTION_NAMES = tuple(name for name in dir(SlamOptions) if not name.startswith("_
 
 @dataclass
 class SlamResult:
-    """steps[i] is what became of scan i."""
+    """steps[i] is what became of scan i; fewer than the scans where on_step ended the work."""
 
     steps: list[SlamStep]
     map: GridMap
@@ -48,13 +48,13 @@ class SlamResult:
 
 def slam(
     scans: Sequence[Scan],
-    on_step: Callable[[Slam, SlamStep], None] | None = None,
+    on_step: Callable[[Slam, SlamStep], bool | None] | None = None,
     **options: Unpack[SlamKeywords],
 ) -> SlamResult:
     """Each scan matched to the map that the scans before it made; the first one's robot stands at (0, 0, 0).
 
-    on_step: called after every scan. options: the fields of SlamOptions. Raises InvalidArgument, UnknownName,
-    UnknownOption, TooLarge.
+    on_step: called after every scan; False from it ends the work there. options: the fields of SlamOptions.
+    Raises InvalidArgument, UnknownName, UnknownOption, TooLarge.
     """
     if not scans:
         raise InvalidArgument("slam: no scans, expected at least one")
@@ -62,8 +62,8 @@ def slam(
     steps = []
     for scan in scans:
         steps.append(mapping.add(scan))
-        if on_step is not None:
-            on_step(mapping, steps[-1])
+        if on_step is not None and on_step(mapping, steps[-1]) is False:
+            break
     return SlamResult(steps, mapping.map())
 
 

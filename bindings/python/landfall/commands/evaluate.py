@@ -18,10 +18,15 @@ from landfall.evaluation import judge, load_estimates, report
 def run(
     estimate: Annotated[Path, typer.Option("--estimate", help="poses.tum or results.jsonl.")],
     truth: Annotated[Path, typer.Option("--truth", help="TUM trajectory of the robot's true poses.")],
-    translation_m: Annotated[float, typer.Option("--translation-m", help="Right within this.")] = 0.25,
-    rotation_deg: Annotated[float, typer.Option("--rotation-deg", help="And within this.")] = 3.0,
+    translation_m: Annotated[
+        float, typer.Option("--translation-m", min=0.0, help="Right within this.")
+    ] = 0.25,
+    rotation_deg: Annotated[float, typer.Option("--rotation-deg", min=0.0, help="And within this.")] = 3.0,
     skip_first: Annotated[
-        int, typer.Option("--skip-first", help="Leave out the truth's first lines (a TUM file of windows).")
+        int,
+        typer.Option(
+            "--skip-first", min=0, help="Leave out the truth's first lines (a TUM file of windows)."
+        ),
     ] = 0,
     exclude_index: Annotated[
         str, typer.Option("--exclude-index", help="Truth lines to set aside, from 0: 198,199.")
@@ -34,12 +39,13 @@ def run(
     knows; for a TUM file, which has no line where nothing was found, they are the lines of the truth.
     """
     estimates, estimates_are_queries = load_estimates(estimate)
+    true_poses = load_trajectory(truth)
     judged = judge(
-        load_trajectory(truth),
+        true_poses,
         estimates,
         estimates_are_queries=estimates_are_queries,
         skip_first=skip_first,
-        exclude=_indices(exclude_index),
+        exclude=_indices(exclude_index, len(true_poses)),
     )
     numbers = report(judged, translation_m, math.radians(rotation_deg))
     if as_json:
@@ -48,11 +54,15 @@ def run(
         print_report(numbers)
 
 
-def _indices(text: str) -> set[int]:
+def _indices(text: str, lines: int) -> set[int]:
     try:
-        return {int(part) for part in text.split(",") if part.strip()}
+        indices = {int(part) for part in text.split(",") if part.strip()}
     except ValueError:
         raise InvalidArgument(f"--exclude-index {text!r}: expected whole numbers like 198,199") from None
+    beyond = sorted(index for index in indices if not 0 <= index < lines)
+    if beyond:
+        raise InvalidArgument(f"--exclude-index {beyond[0]}: the truth has {lines} lines, counted from 0")
+    return indices
 
 
 def print_report(numbers: dict) -> None:

@@ -11,13 +11,15 @@ import typer
 
 from landfall._landfall import Pose2, Scan, load_trajectory, map_from_known_poses, save_grid_map
 from landfall.commands._map_slam import SlamRequest, map_by_slam
-from landfall.commands.options import LogFile, Seed, SensorFile, read_log
+from landfall.commands.options import LogFile, Seed, SensorFile, read_log, require_index_range
 from landfall.commands.sonar_maps import SONAR_METHODS, SonarSettings
 from landfall.errors import InvalidArgument, UnknownName
-from landfall.outputs import require_writable
+from landfall.outputs import require_distinct, require_writable
 
 METHODS = ("known-poses", "slam", *SONAR_METHODS)
+MAP_ENDINGS = (".yaml", ".yml")
 POSE_TOLERANCE_S = 0.02
+TBF_WINDOW_SCANS = 50
 CELL_M, SLAM_CELL_M = 0.05, 0.02
 SLAM = "Method slam"
 
@@ -38,8 +40,8 @@ def run(
     range_max_m: Annotated[
         float, typer.Option("--range-max-m", help="Longer echoes free their first metres only; 0: no limit.")
     ] = 0.0,
-    from_index: Annotated[int, typer.Option("--from-index", help="First scan.")] = 0,
-    to_index: Annotated[int | None, typer.Option("--to-index", help="One past the last scan.")] = None,
+    from_index: Annotated[int, typer.Option("--from-index", min=0, help="First scan.")] = 0,
+    to_index: Annotated[int | None, typer.Option("--to-index", min=0, help="One past the last scan.")] = None,
     bounding_box: Annotated[
         bool, typer.Option("--bounding-box", help="tbf: correct readings to the box of the facing sonars.")
     ] = False,
@@ -47,8 +49,8 @@ def run(
         bool, typer.Option("--connect-walls", help="tbf: join segments that line up, drop what is on none.")
     ] = False,
     window_scans: Annotated[
-        int, typer.Option("--window-scans", help="tbf: scans that a reading's partners are sought in.")
-    ] = 50,
+        int, typer.Option("--window-scans", min=1, help="tbf: scans that a reading's partners are sought in.")
+    ] = TBF_WINDOW_SCANS,
     sensor: SensorFile = None,
     matcher: Annotated[
         str, typer.Option("--matcher", help="slam: pso or branch_and_bound.", rich_help_panel=SLAM)
@@ -82,8 +84,33 @@ def run(
     """
     if method not in METHODS:
         raise UnknownName(f"--method {method}: unknown; known: {', '.join(METHODS)}")
+    _require_of_method(
+        method,
+        tbf={
+            "--bounding-box": bounding_box,
+            "--connect-walls": connect_walls,
+            "--window-scans": window_scans != TBF_WINDOW_SCANS,
+        },
+        slam={
+            "--matcher": matcher != "pso",
+            "--prediction": prediction != "still",
+            "--raw": raw,
+            "--trajectory": trajectory is not None,
+            "--picture": picture is not None,
+            "--animation": animation is not None,
+        },
+    )
+    if method == "slam" and (poses is not None or odometry):
+        raise InvalidArgument("--poses and --odometry are of known poses, and method slam finds its own")
+    _require_map_name(out)
     require_writable(out)
-    scans = read_log(log, sensor).scans[from_index:to_index]
+    require_distinct(
+        {"--out": out, "--trajectory": trajectory, "--picture": picture, "--animation": animation},
+        [log, poses, sensor],
+    )
+    scans = read_log(log, sensor).scans
+    require_index_range(from_index, to_index, len(scans), log)
+    scans = scans[from_index:to_index]
     if method == "slam":
         map_by_slam(
             log,
@@ -120,6 +147,18 @@ def run(
         grid = map_from_known_poses(located, resolution_m=cell_m, range_max_m=range_max_m)
     save_grid_map(grid, out)
     print(f"{out}: {grid.width_cells} x {grid.height_cells} cells from {len(located)} of {len(scans)} scans")
+
+
+def _require_of_method(method: str, **options: dict[str, bool]) -> None:
+    """An option of another method is refused rather than passed over."""
+    for owner, given in options.items():
+        for option in (name for name, is_given in given.items() if is_given and method != owner):
+            raise InvalidArgument(f"{option} is of --method {owner}, and the method is {method}")
+
+
+def _require_map_name(out: Path) -> None:
+    if out.suffix.lower() not in MAP_ENDINGS:
+        raise InvalidArgument(f"--out {out}: a map ends in {' or '.join(MAP_ENDINGS)}, not '{out.suffix}'")
 
 
 def set_poses(scans: Sequence[Scan], trajectory: Sequence[tuple[float, Pose2]]) -> None:

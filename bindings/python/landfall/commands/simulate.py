@@ -10,7 +10,7 @@ import typer
 from landfall._landfall import load_map, load_trajectory, save_log, simulate
 from landfall.commands.options import OneMap, Seed, one_sensor
 from landfall.errors import InvalidArgument
-from landfall.outputs import require_writable
+from landfall.outputs import require_distinct, require_writable
 
 
 def run(
@@ -26,6 +26,7 @@ def run(
 ) -> None:
     """What a sensor would see from given poses, with the sensor's noise."""
     require_writable(out)
+    require_distinct({"--out": out}, [map, sensor, poses])
     trajectory = load_trajectory(poses)
     if not trajectory:
         raise InvalidArgument(f"{poses}: no poses to simulate from")
