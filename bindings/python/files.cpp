@@ -38,15 +38,17 @@ void bind_map_files(nb::module_& module) {
       "path"_a, nb::kw_only(), "field_sigma_m"_a = defaults.prepare.field_sigma_m, "name"_a = "",
       "resolution_m"_a = defaults.walls.resolution_m,
       "A ROS map (.yaml with its image) or a wall plan (.json), ready to search.\n"
-      "resolution_m: of the grid that a plan is searched on. Raises FileNotFound, FileFormat, TooLarge.");
+      "name: by default the file's without its ending, or its folder's where that is plain \"map\".\n"
+      "resolution_m: of the grid that a plan is searched on. field_sigma_m: how far from a wall an echo may\n"
+      "lie and still count. Raises FileNotFound, FileFormat, TooLarge.");
   module.def("load_grid_map", &load_grid_map, "yaml"_a, nb::call_guard<nb::gil_scoped_release>(),
              "A ROS map_server yaml with its image. Raises FileNotFound, FileFormat, TooLarge.");
   module.def("save_grid_map", &save_grid_map, "map"_a, "yaml"_a, nb::call_guard<nb::gil_scoped_release>(),
-             "Writes the yaml and, beside it, a pgm. Raises FileWrite.");
+             "Writes the yaml and, beside it, a pgm; an existing file is replaced whole. Raises FileWrite.");
   module.def("load_wall_map", &load_wall_map, "json"_a, nb::call_guard<nb::gil_scoped_release>(),
              "{\"units\": \"m\", \"walls\": [[x1, y1, x2, y2], ...]}. Raises FileNotFound, FileFormat.");
   module.def("save_wall_map", &save_wall_map, "map"_a, "json"_a, nb::call_guard<nb::gil_scoped_release>(),
-             "Raises FileWrite.");
+             "A wall plan as JSON, metres. Raises FileWrite.");
 }
 
 void bind_log_files(nb::module_& module) {
@@ -65,7 +67,7 @@ void bind_log_files(nb::module_& module) {
   module.def("load_sensors", &load_sensors, "path"_a, nb::call_guard<nb::gil_scoped_release>(),
              "The sensors that a yaml or a .jsonl log defines, by name. Raises FileNotFound, FileFormat.");
   module.def("save_sensor", &save_sensor, "sensor"_a, "yaml"_a, nb::call_guard<nb::gil_scoped_release>(),
-             "Raises FileWrite.");
+             "A sensor as yaml, as load_sensors() and --sensor read it. Raises FileWrite.");
   module.def(
       "load_text_log",
       [](const Path& path, const Sensors& sensors) {
@@ -89,7 +91,7 @@ void bind_pose_files(nb::module_& module) {
           poses.emplace_back(stamped.stamp_s, stamped.pose);
         return poses;
       },
-      "tum"_a, "(stamp_s, pose) each. Raises FileNotFound, FileFormat.");
+      "tum"_a, "(stamp_s, pose) of each line, seconds and Pose2. Raises FileNotFound, FileFormat.");
   module.def(
       "save_trajectory",
       [](const std::vector<std::tuple<double, PoseArgument>>& poses, const Path& tum) {
@@ -101,7 +103,10 @@ void bind_pose_files(nb::module_& module) {
       "poses"_a, "tum"_a, "poses: (stamp_s, pose) each. Raises FileWrite.");
   module.def("load_places", &load_places, "yaml"_a,
              "Named places of a map: name -> prior. Raises FileNotFound, FileFormat.");
-  module.def("load_prior", &load_prior, "json"_a, "A prior that mirrors the classes. Raises FileFormat.");
+  module.def(
+      "load_prior", &load_prior, "json"_a,
+      "A prior as JSON: {\"window\": {\"T_map_robot\": [x, y, theta], ...}} and so on, docs/formats.md.\n"
+      "Raises FileNotFound, FileFormat.");
 }
 
 }  // namespace

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <span>
 #include <tuple>
+#include <vector>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "landfall/error.hpp"
 #include "landfall/prior.hpp"
+#include "repr.hpp"
 
 namespace landfall::python {
 namespace nb = nanobind;
@@ -31,8 +33,8 @@ Gaussian gaussian_from_sigmas(const Pose2& T_map_robot, double sigma_xy_m, doubl
 }
 
 Gaussian gaussian_from_matrix(const Pose2& T_map_robot, const ArrayLike<double>& covariance) {
-  const std::span<const double> values = rows_of(covariance, 3, "Gaussian covariance");
-  if (values.size() != 9) {
+  const std::span<const double> values(covariance.array.data(), covariance.array.size());
+  if (shape_of(covariance) != std::vector<std::size_t>{3, 3}) {
     throw Error(ErrorCode::invalid_argument, "Gaussian covariance: an array of shape " +
                                                  shape_text(shape_of(covariance)) + ", expected (3, 3)");
   }
@@ -47,7 +49,9 @@ Matrix<const double> covariance_of(nb::handle self) {
 
 void bind_boxes(nb::module_& module) {
   const Window window;
-  nb::class_<Anywhere>(module, "Anywhere", "Everywhere that is free, any heading.").def(nb::init<>());
+  nb::class_<Anywhere>(module, "Anywhere", "Everywhere that is free, any heading.")
+      .def(nb::init<>())
+      .def("__repr__", [](nb::handle self) { return repr_of(self, {}); });
   nb::class_<Window>(module, "Window",
                      "A box in x and y, aligned with the map's axes, and a cone in heading.")
       .def(
@@ -57,26 +61,38 @@ void bind_boxes(nb::module_& module) {
             init_checked(self, Window{T_map_robot, half_x_m, half_y_m, half_theta_rad});
           },
           "T_map_robot"_a, "half_x_m"_a = window.half_x_m, "half_y_m"_a = window.half_y_m,
-          "half_theta_rad"_a = window.half_theta_rad, "Half widths. Raises InvalidArgument.")
+          "half_theta_rad"_a = window.half_theta_rad,
+          "T_map_robot: the middle. Half widths in metres and radians; by default any heading. Raises\n"
+          "InvalidArgument.")
       .def_ro("T_map_robot", &Window::T_map_robot)
       .def_ro("half_x_m", &Window::half_x_m)
       .def_ro("half_y_m", &Window::half_y_m)
-      .def_ro("half_theta_rad", &Window::half_theta_rad);
+      .def_ro("half_theta_rad", &Window::half_theta_rad)
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(self, {"T_map_robot", "half_x_m", "half_y_m", "half_theta_rad"});
+      });
   nb::class_<Gaussian>(module, "Gaussian", "A Gaussian of (x_m, y_m, theta_rad); its support is three sigma.")
       .def(
           "__init__",
           [](Gaussian* self, const PoseArgument& T_map_robot, const ArrayLike<double>& covariance) {
             init_checked(self, gaussian_from_matrix(T_map_robot, covariance));
           },
-          "T_map_robot"_a, "covariance"_a, "covariance: (3, 3). Raises InvalidArgument.")
+          "T_map_robot"_a, "covariance"_a,
+          "T_map_robot: the mean. covariance: (3, 3) of (x_m, y_m, theta_rad), map frame; symmetric, "
+          "positive\n"
+          "semi-definite. Raises InvalidArgument.")
       .def(
           "__init__",
           [](Gaussian* self, const PoseArgument& T_map_robot, double sigma_xy_m, double sigma_theta_rad) {
             init_checked(self, gaussian_from_sigmas(T_map_robot, sigma_xy_m, sigma_theta_rad));
           },
-          "T_map_robot"_a, nb::kw_only(), "sigma_xy_m"_a, "sigma_theta_rad"_a)
+          "T_map_robot"_a, nb::kw_only(), "sigma_xy_m"_a, "sigma_theta_rad"_a,
+          "Without correlation: one sigma of x and of y, metres, and of the heading, radians.")
       .def_ro("T_map_robot", &Gaussian::T_map_robot)
-      .def_prop_ro("covariance", &covariance_of, "(3, 3) float64, read-only view.");
+      .def_prop_ro("covariance", &covariance_of, "(3, 3) float64, read-only view.")
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(self, {"T_map_robot", "covariance"});
+      });
 }
 
 void bind_areas(nb::module_& module) {
@@ -88,7 +104,8 @@ void bind_areas(nb::module_& module) {
             init_checked(self, Region{points_from(polygon, "Region"), theta_rad, half_theta_rad});
           },
           "polygon_map"_a, "theta_rad"_a = region.theta_rad, "half_theta_rad"_a = region.half_theta_rad,
-          "polygon_map: (n, 2) corners, metres. Raises InvalidArgument.")
+          "polygon_map: (n, 2) corners, metres, map frame. Headings within half_theta_rad of theta_rad, by\n"
+          "default any. Raises InvalidArgument.")
       .def_prop_ro("polygon_map",
                    [](const Region& self) {
                      std::vector<std::tuple<double, double>> corners;
@@ -96,7 +113,10 @@ void bind_areas(nb::module_& module) {
                      return corners;
                    })
       .def_ro("theta_rad", &Region::theta_rad)
-      .def_ro("half_theta_rad", &Region::half_theta_rad);
+      .def_ro("half_theta_rad", &Region::half_theta_rad)
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(self, {"polygon_map", "theta_rad", "half_theta_rad"});
+      });
 
   nb::class_<Beacons>(module, "Beacons", "The robot is within a radius of one of some points; any heading.")
       .def(
@@ -109,12 +129,15 @@ void bind_areas(nb::module_& module) {
             }
             init_checked(self, std::move(made));
           },
-          "discs"_a, "discs: (n, 3): x_m, y_m, radius_m. Raises InvalidArgument.")
-      .def_prop_ro("discs", [](const Beacons& self) {
-        std::vector<std::tuple<double, double, double>> discs;
-        for (const Beacon& b : self.discs) discs.emplace_back(b.p_map.x_m, b.p_map.y_m, b.radius_m);
-        return discs;
-      });
+          "discs"_a, "discs: (n, 3): x_m, y_m, radius_m, map frame. Raises InvalidArgument.")
+      .def_prop_ro("discs",
+                   [](const Beacons& self) {
+                     std::vector<std::tuple<double, double, double>> discs;
+                     for (const Beacon& b : self.discs)
+                       discs.emplace_back(b.p_map.x_m, b.p_map.y_m, b.radius_m);
+                     return discs;
+                   })
+      .def("__repr__", [](nb::handle self) { return repr_of(self, {"discs"}); });
 }
 
 void bind_lists(nb::module_& module) {
@@ -125,7 +148,8 @@ void bind_lists(nb::module_& module) {
             init_checked(self, CandidatePoses{poses_from(poses, "CandidatePoses")});
           },
           "T_map_robot"_a, "T_map_robot: a list of poses, or an array (n, 3). Raises InvalidArgument.")
-      .def_ro("T_map_robot", &CandidatePoses::T_map_robot);
+      .def_ro("T_map_robot", &CandidatePoses::T_map_robot)
+      .def("__repr__", [](nb::handle self) { return repr_of(self, {"T_map_robot"}); });
 }
 
 void bind_mixture(nb::module_& module) {
@@ -138,13 +162,19 @@ void bind_mixture(nb::module_& module) {
           [](Mixture* self, std::vector<double> weights, const std::vector<PriorArgument>& components) {
             init_checked(self, Mixture{std::move(weights), {components.begin(), components.end()}});
           },
-          "weights"_a, "components"_a, "Raises InvalidArgument.")
+          "weights"_a, "components"_a,
+          "One weight, 0 or more, per component; they need not sum to 1. Raises InvalidArgument.")
       .def_ro("weights", &Mixture::weights)
-      .def_prop_ro("components", [](const Mixture& self) { return self.components; });
-  prior.def("__init__", [](PosePrior* self, const PriorArgument& kind) { new (self) PosePrior(kind); })
-      .def_prop_ro("kind", [](const PosePrior& self) {
-        return std::visit([](const auto& kind) { return nb::cast(kind); }, self.kind);
+      .def_prop_ro("components", [](const Mixture& self) { return self.components; })
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(self, {"weights", "components"});
       });
+  prior.def("__init__", [](PosePrior* self, const PriorArgument& kind) { new (self) PosePrior(kind); })
+      .def_prop_ro("kind",
+                   [](const PosePrior& self) {
+                     return std::visit([](const auto& kind) { return nb::cast(kind); }, self.kind);
+                   })
+      .def("__repr__", [](nb::handle self) { return repr_of(self, {"kind"}); });
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "bindings.hpp"
 #include "landfall/io.hpp"
 #include "landfall/search.hpp"
+#include "repr.hpp"
 
 namespace landfall::python {
 namespace nb = nanobind;
@@ -46,17 +47,24 @@ void bind_hypothesis(nb::module_& module) {
 
 void bind_numbers(nb::module_& module) {
   nb::class_<StageTimes>(module, "StageTimes", "Wall time of each stage of a query, milliseconds.")
-      .def_ro("prepare_ms", &StageTimes::prepare_ms)
-      .def_ro("propose_ms", &StageTimes::propose_ms)
-      .def_ro("refine_ms", &StageTimes::refine_ms)
-      .def_ro("verify_ms", &StageTimes::verify_ms)
-      .def_ro("rank_ms", &StageTimes::rank_ms)
-      .def_ro("total_ms", &StageTimes::total_ms);
+      .def_ro("prepare_ms", &StageTimes::prepare_ms, "Building what the map lacked: the first query only.")
+      .def_ro("propose_ms", &StageTimes::propose_ms, "The search method.")
+      .def_ro("refine_ms", &StageTimes::refine_ms, "Below the grid step.")
+      .def_ro("verify_ms", &StageTimes::verify_ms, "Casting rays.")
+      .def_ro("rank_ms", &StageTimes::rank_ms, "Probability and verdict.")
+      .def_ro("total_ms", &StageTimes::total_ms, "Of the whole query.")
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(self, {"prepare_ms", "propose_ms", "refine_ms", "verify_ms", "rank_ms", "total_ms"});
+      });
   nb::class_<SearchCounts>(module, "SearchCounts", "What a search looked at.")
-      .def_ro("poses_covered", &SearchCounts::poses_covered)
-      .def_ro("poses_scored", &SearchCounts::poses_scored)
-      .def_ro("bounds_computed", &SearchCounts::bounds_computed)
-      .def_ro("rays_cast", &SearchCounts::rays_cast);
+      .def_ro("poses_covered", &SearchCounts::poses_covered, "Free lattice poses of the prior.")
+      .def_ro("poses_scored", &SearchCounts::poses_scored,
+              "Of these, scored one by one; bounds excluded the others.")
+      .def_ro("bounds_computed", &SearchCounts::bounds_computed, "Bounds over many poses each.")
+      .def_ro("rays_cast", &SearchCounts::rays_cast, "Simulated ranges, to verify.")
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(self, {"poses_covered", "poses_scored", "bounds_computed", "rays_cast"});
+      });
 }
 
 }  // namespace
@@ -71,18 +79,20 @@ void bind_results(nb::module_& module) {
           "'found', 'ambiguous' or 'lost'.")
       .def_ro("reason", &SearchResult::reason, "Why lost; empty otherwise.")
       .def_ro("proven", &SearchResult::proven, "No lattice pose of the prior scores higher.")
-      .def_ro("method", &SearchResult::method)
-      .def_ro("beams_valid", &SearchResult::beams_valid)
-      .def_ro("beams_echo", &SearchResult::beams_echo)
-      .def_ro("stamp_s", &SearchResult::stamp_s)
-      .def_ro("counts", &SearchResult::counts)
-      .def_ro("times", &SearchResult::times)
+      .def_ro("method", &SearchResult::method, "Which answered, with its instruction set.")
+      .def_ro("beams_valid", &SearchResult::beams_valid, "Readings that are not invalid.")
+      .def_ro("beams_echo", &SearchResult::beams_echo, "Of these, the ones that hit something.")
+      .def_ro("stamp_s", &SearchResult::stamp_s, "The scan's time stamp.")
+      .def_ro("counts", &SearchResult::counts, "What was looked at.")
+      .def_ro("times", &SearchResult::times, "Milliseconds of each stage.")
       .def(
           "to_json", [](const SearchResult& self, std::size_t index) { return to_json_line(self, index); },
           "index"_a = 0, "A results.jsonl line, without the line end.")
       .def("__repr__", [](const SearchResult& self) {
-        return "SearchResult(verdict='" + std::string(to_string(self.verdict)) + "', " +
-               std::to_string(self.hypotheses.size()) + " hypotheses)";
+        const std::string text = "SearchResult(verdict='" + std::string(to_string(self.verdict)) + "', ";
+        if (self.hypotheses.empty()) return text + "no hypothesis: " + self.reason + ")";
+        return text + std::to_string(self.hypotheses.size()) + " hypotheses, best " +
+               repr(self.hypotheses.front()) + ")";
       });
 }
 

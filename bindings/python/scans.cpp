@@ -15,6 +15,7 @@
 #include "landfall/error.hpp"
 #include "landfall/scan.hpp"
 #include "landfall/sensor.hpp"
+#include "repr.hpp"
 
 namespace landfall::python {
 namespace nb = nanobind;
@@ -83,7 +84,10 @@ void bind_sensor(nb::module_& module) {
       .def_ro("T_robot_beam", &Beam::T_robot_beam)
       .def_ro("half_angle_rad", &Beam::half_angle_rad, "0: a ray; a cone of 12 degrees has 6 here.")
       .def_ro("range_min_m", &Beam::range_min_m, "A shorter reading is invalid.")
-      .def_ro("range_max_m", &Beam::range_max_m, "This or more means that nothing was hit.");
+      .def_ro("range_max_m", &Beam::range_max_m, "This or more means that nothing was hit.")
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(self, {"T_robot_beam", "half_angle_rad", "range_min_m", "range_max_m"});
+      });
 
   const Sensor sensor;
   nb::class_<Sensor>(module, "Sensor", "A named list of beams with its noise; immutable.")

@@ -12,6 +12,7 @@
 #include "bindings.hpp"
 #include "landfall/consistent.hpp"
 #include "landfall/search.hpp"
+#include "repr.hpp"
 
 namespace landfall::python {
 namespace nb = nanobind;
@@ -25,14 +26,20 @@ void bind_options(nb::module_& module) {
       .def_rw("method", &SearchOptions::method, "A name of methods().")
       .def_rw("translation_step_m", &SearchOptions::translation_step_m,
               "0: the map's resolution; else a multiple of it.")
-      .def_rw("rotation_step_rad", &SearchOptions::rotation_step_rad)
-      .def_rw("max_hypotheses", &SearchOptions::max_hypotheses)
+      .def_rw("rotation_step_rad", &SearchOptions::rotation_step_rad, "Between headings of the lattice.")
+      .def_rw("max_hypotheses", &SearchOptions::max_hypotheses, "1 to 1000.")
       .def_rw("time_budget_s", &SearchOptions::time_budget_s, "Per scan; 0: none.")
       .def_rw("threads", &SearchOptions::threads, "0: all.")
-      .def_rw("seed", &SearchOptions::seed)
-      .def_rw("robot_radius_m", &SearchOptions::robot_radius_m)
-      .def_rw("distinct_translation_m", &SearchOptions::distinct_translation_m)
-      .def_rw("distinct_rotation_rad", &SearchOptions::distinct_rotation_rad);
+      .def_rw("seed", &SearchOptions::seed, "Of methods that draw random numbers.")
+      .def_rw("robot_radius_m", &SearchOptions::robot_radius_m, "A pose is possible where this disc is free.")
+      .def_rw("distinct_translation_m", &SearchOptions::distinct_translation_m,
+              "Hypotheses nearer than this and distinct_rotation_rad are one.")
+      .def_rw("distinct_rotation_rad", &SearchOptions::distinct_rotation_rad)
+      .def("__repr__", [](nb::handle self) {
+        return repr_of(
+            self, {"method", "translation_step_m", "rotation_step_rad", "max_hypotheses", "time_budget_s",
+                   "threads", "seed", "robot_radius_m", "distinct_translation_m", "distinct_rotation_rad"});
+      });
 }
 
 }  // namespace

@@ -98,6 +98,7 @@ from landfall.errors import (
     TooLarge,
     UnknownName,
     UnknownOption,
+    WrongType,
 )
 from landfall.logs import load_log, make_scans
 from landfall.scan_mapping import SlamResult, slam
@@ -152,6 +153,7 @@ __all__ = [
     "UnknownOption",
     "WallMap",
     "Window",
+    "WrongType",
     "active_executor",
     "active_isa",
     "align",

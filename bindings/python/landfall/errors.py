@@ -19,6 +19,10 @@ class InvalidArgument(Error, ValueError):
     """A value given by the caller is outside what the function accepts."""
 
 
+class WrongType(InvalidArgument, TypeError):
+    """An argument of another type than the function takes."""
+
+
 class UnknownName(Error, ValueError):
     """A method, option, sensor, place or instruction set that does not exist."""
 

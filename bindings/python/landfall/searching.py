@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from os import PathLike
 from typing import TYPE_CHECKING, TypeAlias, overload
+
+import numpy as np
 
 from landfall._landfall import (
     Anywhere,
@@ -11,6 +14,7 @@ from landfall._landfall import (
     CandidatePoses,
     Gaussian,
     GridMap,
+    Log,
     Mixture,
     PosePrior,
     PreparedMap,
@@ -22,7 +26,7 @@ from landfall._landfall import (
     Window,
     search_batch,
 )
-from landfall.errors import InvalidArgument, UnknownOption
+from landfall.errors import InvalidArgument, UnknownOption, WrongType
 
 if TYPE_CHECKING:
     from typing_extensions import TypedDict, Unpack
@@ -47,6 +51,7 @@ Prior: TypeAlias = (
 )
 Map: TypeAlias = PreparedMap | GridMap | WallMap
 
+PRIOR_KINDS = (PosePrior, Anywhere, Window, Gaussian, Region, Beacons, CandidatePoses, Mixture)
 OPTION_NAMES = tuple(name for name in dir(SearchOptions) if not name.startswith("_"))
 
 
@@ -74,12 +79,10 @@ def search(map, prior, scans, **options):  # type: ignore[no-untyped-def]
 
     The GIL is released meanwhile. A scan with no valid beam is an answer (lost), not an error. Raises
     InvalidArgument (an option, prior or scan that does not validate; a prior entirely off the map),
-    UnknownName (a method), UnknownOption.
+    WrongType, UnknownName (a method), UnknownOption.
     """
     one = isinstance(scans, Scan)
-    maps = [_prepared(m) for m in (map if isinstance(map, Sequence) else [map])]
-    priors = [Anywhere() if p is None else p for p in (prior if isinstance(prior, Sequence) else [prior])]
-    results = search_batch(maps, priors, [scans] if one else list(scans), search_options(**options))
+    results = search_batch(_maps(map), _priors(prior), _scans(scans), search_options(**options))
     return results[0] if one else results
 
 
@@ -92,10 +95,47 @@ def search_options(**keywords: object) -> SearchOptions:
         try:
             setattr(options, name, value)
         except TypeError:
-            expected = type(getattr(options, name)).__name__
+            expected = "a whole number from 0" if name == "seed" else type(getattr(options, name)).__name__
             raise InvalidArgument(f"search: option {name} is {value!r}, expected {expected}") from None
     return options
 
 
-def _prepared(map: Map) -> PreparedMap:
-    return map if isinstance(map, PreparedMap) else PreparedMap(map)
+def _maps(given: Map | Sequence[Map]) -> list[PreparedMap]:
+    maps = _listed(given)
+    for map in maps:
+        if isinstance(map, str | PathLike):
+            raise WrongType(f"search: map is {map!r}: give load_map({map!r})")
+        if not isinstance(map, PreparedMap | GridMap | WallMap):
+            raise WrongType(f"search: map is a {_kind(map)}, expected PreparedMap, GridMap or WallMap")
+    return [map if isinstance(map, PreparedMap) else PreparedMap(map) for map in maps]
+
+
+def _priors(given: Prior | Sequence[Prior]) -> list[PosePrior | Anywhere]:
+    priors = [Anywhere() if prior is None else prior for prior in _listed(given)]
+    for prior in priors:
+        if not isinstance(prior, PRIOR_KINDS):
+            names = ", ".join(kind.__name__ for kind in PRIOR_KINDS)
+            raise WrongType(f"search: prior is a {_kind(prior)}, expected None or one of {names}")
+    return priors
+
+
+def _scans(given: Scan | Sequence[Scan]) -> list[Scan]:
+    if isinstance(given, np.ndarray):
+        raise WrongType(
+            f"search: scans is an array of shape {given.shape}: give make_scans(sensor, ranges_m)"
+        )
+    if isinstance(given, Log):
+        raise WrongType("search: scans is a Log: give log.scans")
+    scans = [given] if isinstance(given, Scan) else list(given)
+    for i, scan in enumerate(scans):
+        if not isinstance(scan, Scan):
+            raise WrongType(f"search: scan {i} is a {_kind(scan)}, expected Scan")
+    return scans
+
+
+def _listed(given: object) -> list:
+    return list(given) if isinstance(given, Sequence) and not isinstance(given, str) else [given]
+
+
+def _kind(value: object) -> str:
+    return type(value).__name__

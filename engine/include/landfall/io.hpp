@@ -28,7 +28,8 @@ void save_grid_map(const GridMap& map, const std::filesystem::path& yaml);
 // A plan as JSON: {"units": "m", "walls": [[x1, y1, x2, y2], ...]}; units m, cm or mm.
 WallMap load_wall_map(const std::filesystem::path& json);
 void save_wall_map(const WallMap& map, const std::filesystem::path& json);
-// Either kind, told by the file's ending, ready to search.
+// Either kind, told by the file's ending, ready to search. Without a name of its own the map has the file's,
+// without the ending, or its folder's where that is plain "map".
 struct LoadMapOptions {
   GridFromWallsOptions walls;
   PrepareOptions prepare;
