@@ -156,7 +156,7 @@ def _headline(result: SearchResult, maps: Sequence[PreparedMap], choice: int) ->
     return (
         f"{verdict}{where}: x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, "
         f"heading {math.degrees(pose.theta_rad):.1f} deg   |   probability {best.probability:.3f}, "
-        f"explained {best.explained:.2f}, {result.times.total_ms:.1f} ms"
+        f"explained {best.explained:.2f}, {result.times.total_ms - result.times.prepare_ms:.1f} ms"
     )
 
 
