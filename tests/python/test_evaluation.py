@@ -40,6 +40,29 @@ def test_equal_stamps_match_in_order():
     assert [query.translation_m for query in judged] == [0.0, 0.0]
 
 
+def test_the_same_place_a_floor_higher_is_wrong():
+    estimates = [answer(0, 0.0), Estimate(1.0, landfall.Pose2(1, 0, 0), 0.9, "found", map_index=1)]
+    for truth_map, right in ((None, [0, 1]), (0, [0]), (1, [1])):
+        judged = judge(TRUTH, estimates, estimates_are_queries=True, truth_map=truth_map)
+        assert [query.index for query in judged if query.right(0.25, 0.05)] == right
+        assert report(judged, 0.25, 0.05)["answered"] == 2
+
+
+def test_answers_on_several_maps_are_pointed_out(tmp_path, landfall_command):
+    hypothesis = {"x_m": 1.0, "y_m": 0.0, "theta_rad": 0.0, "probability": 0.9}
+    lines = [
+        {"stamp_s": float(i), "verdict": "found", "hypotheses": [{**hypothesis, "map_index": i}]}
+        for i in (0, 1)
+    ]
+    (tmp_path / "r.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
+    landfall.save_trajectory([(float(i), (1.0, 0.0, 0.0)) for i in (0, 1)], tmp_path / "t.tum")
+    command = ("evaluate", "--estimate", tmp_path / "r.jsonl", "--truth", tmp_path / "t.tum", "--json")
+    unsaid = landfall_command(*command)
+    assert json.loads(unsaid.out)["right"] == 2 and "maps 0, 1; --truth-map" in unsaid.err
+    said = landfall_command(*command, "--truth-map", 1)
+    assert json.loads(said.out)["right"] == 1 and said.err == ""
+
+
 def test_stamps_match_within_a_millisecond():
     judged = judge(TRUTH, [answer(1.0009, 1.0), answer(2.0011, 2.0)], estimates_are_queries=False)
     assert [math.isfinite(query.translation_m) for query in judged] == [False, True, False, False, False]

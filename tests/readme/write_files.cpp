@@ -1,4 +1,4 @@
-// floor.yaml and drive.jsonl in the working folder: what the README's programs read.
+// floor.yaml and drive.jsonl in the working folder: what the programs of README.md and docs/ read.
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -17,5 +17,7 @@ int main() {
   const std::vector<landfall::Pose2> T_map_robot{{1.5, 1.1, 0.3}, {2.5, 1.1, 0.3}};
   auto scans = landfall::simulate(landfall::PreparedMap{floor}, scanner, T_map_robot);
   scans[1].stamp_s = 1.0;
+  scans[0].T_odom_robot = landfall::Pose2{};
+  scans[1].T_odom_robot = inverse(T_map_robot[0]) * T_map_robot[1];
   landfall::save_log(scans, "drive.jsonl");
 }

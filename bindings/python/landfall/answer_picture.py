@@ -13,7 +13,15 @@ from matplotlib.figure import Figure
 
 from landfall._landfall import Hypothesis, Pose2, PreparedMap, Scan, SearchResult
 from landfall.echoes import EXPLAINED, LONG, SHORT, judge_echoes
-from landfall.pictures import arrow_length_m, draw_map, draw_scale, in_map, known_box, save_figure
+from landfall.pictures import (
+    arrow_length_m,
+    draw_map,
+    draw_scale,
+    in_map,
+    known_box,
+    legend_below,
+    save_figure,
+)
 
 BEST_COLOR = "#d7263d"
 RIVAL_COLORS = ("#7b3fa0", "#2e8b57", "#8c564b", "#0e7c86", "#b8860b")
@@ -24,6 +32,7 @@ TITLE_IN = 0.35
 PANEL_IN = 6.6  # height of the panels
 CLOSE_UP_MARGIN_M = 1.5
 LEGEND_COLUMNS = 3
+NUMBER_AT = np.array([[-12.0, 0.0]])  # points, behind the robot
 MOST_DRAWN = 9  # hypotheses
 
 
@@ -61,9 +70,7 @@ def answer_figure(maps: Sequence[PreparedMap], scan: Scan, result: SearchResult,
         points = in_map(result.hypotheses[shown[0]].T_map_robot, scan.points_robot())
         whole.scatter(points[:, 0], points[:, 1], s=2, color=ECHO_COLORS[EXPLAINED], linewidths=0, zorder=3)
         _draw_hypotheses(whole, result, choice, map_index)
-        whole.legend(
-            loc="upper center", bbox_to_anchor=(0.5, -0.07), ncols=LEGEND_COLUMNS, fontsize=9, frameon=False
-        )
+        legend_below(whole, LEGEND_COLUMNS)
     whole.set_title(_map_title(result, maps, map_index), fontsize=10)
     _leave_room(figure, LEGEND_ROW_IN * _legend_rows(whole))
     draw_scale(whole)
@@ -94,9 +101,10 @@ def _draw_hypotheses(axes: Axes, result: SearchResult, choice: int, map_index: i
         axes.annotate(
             str(rank + 1),
             (hypothesis.T_map_robot.x_m, hypothesis.T_map_robot.y_m),
-            xytext=(-7, 5),
+            xytext=in_map(Pose2(0.0, 0.0, hypothesis.T_map_robot.theta_rad), NUMBER_AT)[0],
             textcoords="offset points",
-            ha="right",
+            ha="center",
+            va="center",
             fontsize=10,
             fontweight="bold",
             color=color,
@@ -133,14 +141,7 @@ def _draw_close_up(axes: Axes, map: PreparedMap, scan: Scan, T_map_robot: Pose2,
         label = f"{ECHO_LABELS[kind]}: {len(of_kind)}"
         axes.scatter(of_kind[:, 0], of_kind[:, 1], s=8, color=echo_color, linewidths=0, zorder=3, label=label)
     draw_robot(axes, T_map_robot, color, 0.12 * half, None, zorder=5)
-    axes.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.07),
-        ncols=LEGEND_COLUMNS,
-        fontsize=9,
-        frameon=False,
-        markerscale=2.0,
-    )
+    legend_below(axes, LEGEND_COLUMNS)
     axes.set_ylabel("")
     draw_scale(axes)
     return judged

@@ -26,11 +26,12 @@ class Estimate:
     T_map_robot: Pose2 | None
     probability: float | None = None
     verdict: str | None = None
+    map_index: int = 0
 
 
 @dataclass(frozen=True)
 class Judged:
-    """One query: its truth's line number (from 0), its errors (infinite without a pose)."""
+    """One query: its truth's line number (from 0), its errors; infinite without a pose, or on another map."""
 
     index: int
     translation_m: float
@@ -66,7 +67,8 @@ def _from_result(path: Path, number: int, line: str) -> Estimate:
             return Estimate(stamp_s, None, None, verdict)
         best = hypotheses[chosen]
         pose = Pose2(best["x_m"], best["y_m"], best["theta_rad"])
-        return Estimate(stamp_s, pose, float(best["probability"]), verdict)
+        map_index = int(best.get("map_index", 0))
+        return Estimate(stamp_s, pose, float(best["probability"]), verdict, map_index)
     except (ValueError, KeyError, IndexError, TypeError, AttributeError) as cause:
         what = f"no field {cause}" if isinstance(cause, KeyError) else " ".join(str(cause).split())
         raise FileFormat(f"{path}:{number}: not a result line: {what}") from None
@@ -79,15 +81,17 @@ def judge(
     estimates_are_queries: bool,
     skip_first: int = 0,
     exclude: Collection[int] = (),
+    truth_map: int | None = None,
 ) -> list[Judged]:
-    """One entry per query, in the truth's order.
+    """One entry per query, in the truth's order. truth_map: the map on which the truth lies, elsewhere is
+    wrong; None: positions alone count.
 
     Queries are the truth's lines, or where `estimates_are_queries` those that have an estimate. Estimates are
     matched by time stamp, equal ones in order. Raises InvalidArgument where no query is left.
     """
     matched = _match([stamp_s for stamp_s, _ in truth], estimates)
     judged = [
-        _judged(index, T_map_robot, matched.get(index))
+        _judged(index, T_map_robot, matched.get(index), truth_map)
         for index, (_, T_map_robot) in enumerate(truth)
         if index >= skip_first and index not in exclude and (index in matched or not estimates_are_queries)
     ]
@@ -113,8 +117,10 @@ def _match(truth_stamps_s: Sequence[float], estimates: Sequence[Estimate]) -> di
     return matched
 
 
-def _judged(index: int, T_map_robot: Pose2, estimate: Estimate | None) -> Judged:
+def _judged(index: int, T_map_robot: Pose2, estimate: Estimate | None, truth_map: int | None) -> Judged:
     if estimate is None or estimate.T_map_robot is None:
+        return Judged(index, math.inf, math.inf, estimate)
+    if truth_map is not None and estimate.map_index != truth_map:
         return Judged(index, math.inf, math.inf, estimate)
     return Judged(
         index,
@@ -130,7 +136,7 @@ def report(judged: Sequence[Judged], translation_m: float, rotation_rad: float) 
     good = [query for query, ok in zip(judged, right, strict=True) if ok]
     answer = {
         "queries": len(judged),
-        "answered": sum(math.isfinite(query.translation_m) for query in judged),
+        "answered": sum(q.estimate is not None and q.estimate.T_map_robot is not None for q in judged),
         "right": len(good),
         "success_rate": len(good) / len(judged),
         "within": {"translation_m": translation_m, "rotation_deg": math.degrees(rotation_rad)},

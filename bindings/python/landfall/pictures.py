@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, ScaledTranslation
 from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
 from landfall._landfall import GridMap, Pose2
@@ -24,6 +24,7 @@ UNKNOWN_COLOR = "#d9dde1"
 MAP_COLORS = ListedColormap(["#ffffff", "#20252b", UNKNOWN_COLOR])  # free, occupied, unknown
 VERDICT_COLORS = {"found": "#1a9850", "ambiguous": "#f39c12", "lost": "#d7263d"}
 DPI = 130
+LABEL_IN = 0.5  # from a panel's rim to below its axis' label
 
 Box = tuple[float, float, float, float]  # x0, x1, y0, y1 in the map frame
 
@@ -87,6 +88,22 @@ def known_box(grid: GridMap) -> Box:
 def arrow_length_m(axes: Axes) -> float:
     """Of a robot's heading, by the size of what the panel shows."""
     return 0.05 * max(abs(np.diff(axes.get_xlim())[0]), abs(np.diff(axes.get_ylim())[0]))
+
+
+def legend_below(axes: Axes, columns: int) -> None:
+    """Under the axis' label, by inches and not by the panel's height."""
+    figure = axes.get_figure()
+    assert figure is not None
+    down = ScaledTranslation(0.0, -LABEL_IN, figure.dpi_scale_trans)
+    axes.legend(
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        bbox_transform=axes.transAxes + down,
+        ncols=columns,
+        fontsize=9,
+        frameon=False,
+        markerscale=1.5,
+    )
 
 
 def draw_scale(axes: Axes) -> None:

@@ -18,6 +18,7 @@ from landfall.pictures import (
     draw_map,
     draw_scale,
     known_box,
+    legend_below,
     save_figure,
 )
 from landfall.relocalization import Answers
@@ -95,4 +96,4 @@ def _draw_verdicts(axes: Axes, answers: Answers, map_index: int) -> None:
         label = f"{verdict}: {len(poses)}"
         axes.scatter(xyt[:, 0], xyt[:, 1], s=14, color=color, linewidths=0, label=label, zorder=3)
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=4, fontsize=9, frameon=False)
+        legend_below(axes, 4)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -12,7 +13,7 @@ import typer
 from landfall._landfall import load_trajectory
 from landfall.commands.tables import print_table
 from landfall.errors import InvalidArgument
-from landfall.evaluation import judge, load_estimates, report
+from landfall.evaluation import Judged, judge, load_estimates, report
 
 
 def run(
@@ -31,6 +32,10 @@ def run(
     exclude_index: Annotated[
         str, typer.Option("--exclude-index", help="Truth lines to set aside, from 0: 198,199.")
     ] = "",
+    truth_map: Annotated[
+        int | None,
+        typer.Option("--truth-map", min=0, help="Which --map the truth lies on, from 0; elsewhere is wrong."),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
 ) -> None:
     """Success rate and errors; with results.jsonl also whether verdicts and probabilities are honest.
@@ -46,12 +51,24 @@ def run(
         estimates_are_queries=estimates_are_queries,
         skip_first=skip_first,
         exclude=_indices(exclude_index, len(true_poses)),
+        truth_map=truth_map,
     )
+    _warn_of_maps(judged, truth_map)
     numbers = report(judged, translation_m, math.radians(rotation_deg))
     if as_json:
         print(json.dumps(numbers))
     else:
         print_report(numbers)
+
+
+def _warn_of_maps(judged: Sequence[Judged], truth_map: int | None) -> None:
+    """On floors that are copies of each other an answer one floor off would pass for right."""
+    maps = sorted({q.estimate.map_index for q in judged if q.estimate and q.estimate.T_map_robot})
+    if truth_map is None and len(maps) > 1:
+        listed = ", ".join(map(str, maps))
+        typer.echo(
+            f"landfall: warning: answers lie on maps {listed}; --truth-map: on which the truth", err=True
+        )
 
 
 def _indices(text: str, lines: int) -> set[int]:
