@@ -89,6 +89,8 @@ def test_scan_without_valid_beam_is_lost_and_the_rest_answered(files, scans, lan
     assert [line["verdict"] for line in lines].count("lost") == 1
     assert lines[5]["verdict"] == "lost" and lines[5]["hypotheses"] == [] and "beam" in lines[5]["reason"]
     assert len(landfall.load_trajectory(out)) == 11
+    (why,) = [line for line in done.out.splitlines() if lines[5]["reason"] in line]
+    assert why.split()[-2] == "1"
 
 
 @pytest.mark.parametrize(

@@ -152,7 +152,8 @@ def _headline(result: SearchResult, maps: Sequence[PreparedMap], choice: int) ->
         return f"{result.verdict}: {result.reason}"
     best = result.hypotheses[choice]
     pose = best.T_map_robot
-    verdict = result.verdict if choice == 0 else f"chosen by odometry, {result.verdict} alone"
+    verdict = f"{result.verdict} ({result.reason})" if result.reason else result.verdict
+    verdict = verdict if choice == 0 else f"chosen by odometry, {verdict} alone"
     where = f" on {maps[best.map_index].name}" if len(maps) > 1 else ""
     return (
         f"{verdict}{where}: x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, "

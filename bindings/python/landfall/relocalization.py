@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -52,11 +53,14 @@ class Tally:
 
     verdicts: list[str] = field(default_factory=list)
     search_ms: list[float] = field(default_factory=list)
+    reasons: Counter[str] = field(default_factory=Counter)  # why lost
     started_s: float = field(default_factory=time.monotonic)
 
     def add(self, result: SearchResult) -> None:
         self.verdicts.append(result.verdict)
         self.search_ms.append(result.times.total_ms)
+        if result.verdict == "lost":
+            self.reasons[result.reason] += 1
 
     def rows(self) -> list[tuple[str, str]]:
         count = len(self.verdicts)
@@ -65,11 +69,13 @@ class Tally:
         for verdict in ("found", "ambiguous", "lost"):
             share = 100.0 * self.verdicts.count(verdict) / max(count, 1)
             rows.append((verdict, f"{self.verdicts.count(verdict)} ({share:.1f} %)"))
+        rows += [(f"  {reason}", str(lost)) for reason, lost in self.reasons.most_common()]
         if count:
             median, p95 = np.percentile(self.search_ms, [50, 95])
             rows.append(("search_ms, median", f"{median:.2f}"))
             rows.append(("search_ms, 95th percentile", f"{p95:.2f}"))
-        rows.append(("queries/s", f"{count / max(wall_s, 1e-9):.1f}"))
+        rate = count / max(wall_s, 1e-9)
+        rows.append(("queries/s", f"{rate:.1f}" if rate >= 1 else f"{rate:.2g}"))
         return rows
 
 
