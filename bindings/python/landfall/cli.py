@@ -20,6 +20,12 @@ try:
 except ImportError:  # Typer before it brought its own Click
     from click import ClickException as UsageProblem  # type: ignore[assignment, no-redef]
 
+PLAINER = {  # what Typer says of values
+    "Input should be a valid integer, unable to parse string as an integer": "expected a whole number",
+    "Input should be a valid number, unable to parse string as a number": "expected a number",
+    "Input should be ": "expected a number ",
+}
+
 app = typer.Typer(
     help="Global relocalization from range scans and a known map.",
     add_completion=False,
@@ -74,6 +80,8 @@ def _with_value(message: str, given: Sequence[str]) -> str:
     option, rest = match.groups()
     values = [b for a, b in itertools.pairwise(given) if a == option]
     values += [word.removeprefix(f"{option}=") for word in given if word.startswith(f"{option}=")]
+    for theirs, ours in PLAINER.items():
+        rest = rest.replace(theirs, ours)
     return f"{option} {' '.join(values)}: {rest}"
 
 

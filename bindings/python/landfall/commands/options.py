@@ -48,7 +48,15 @@ RotationStep = Annotated[float, typer.Option("--rotation-step-deg", help="Headin
 RobotRadius = Annotated[
     float, typer.Option("--robot-radius-m", help="A pose is possible where this disc is free.")
 ]
-Seed = Annotated[int, typer.Option("--seed", min=0, max=2**63 - 1, help="Of everything random.")]
+
+
+def _checked_seed(seed: int) -> int:
+    if not 0 <= seed < 2**64:
+        raise InvalidArgument(f"--seed {seed}: expected a whole number from 0 to 2^64 - 1")
+    return seed
+
+
+Seed = Annotated[int, typer.Option("--seed", callback=_checked_seed, help="Of everything random.")]
 
 
 def load_maps(paths: list[Path]) -> list[PreparedMap]:
