@@ -49,7 +49,7 @@ def run(
         bool, typer.Option("--connect-walls", help="tbf: join segments that line up, drop what is on none.")
     ] = False,
     window_scans: Annotated[
-        int, typer.Option("--window-scans", min=1, help="tbf: scans that a reading's partners are sought in.")
+        int, typer.Option("--window-scans", help="tbf: scans that a reading's partners are sought in.")
     ] = TBF_WINDOW_SCANS,
     sensor: SensorFile = None,
     matcher: Annotated[
