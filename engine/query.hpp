@@ -32,7 +32,9 @@ struct Query {
   int threads = 1;
   std::optional<Clock::time_point> deadline;
 
-  [[nodiscard]] bool out_of_time() const { return deadline && Clock::now() >= *deadline; }
+  [[nodiscard]] bool out_of_time() const {
+    return options.stop.stop_requested() || (deadline && Clock::now() >= *deadline);
+  }
 };
 
 struct Candidate {

@@ -180,6 +180,8 @@ bool deserves_second_look(const Query& query, const Method& method, const Modes&
 }
 
 // Why there is nothing to go by; empty where there is.
+constexpr const char* stopped = "stopped before any pose was scored";
+
 std::string nothing_to_go_by(const SearchResult& result) {
   if (result.beams_valid == 0) return "no valid beam";
   if (result.beams_echo == 0) return "no beam has an echo";
@@ -197,7 +199,7 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
   result.beams_valid = count_valid(scan);
   result.beams_echo = count_echoes(scan);
   for (const PreparedQuestion& map : maps) result.counts.poses_covered += map.domain(index).poses;
-  result.reason = nothing_to_go_by(result);
+  result.reason = options.stop.stop_requested() ? stopped : nothing_to_go_by(result);
   if (!result.reason.empty()) return result;
   result.proven = true;
   std::vector<Modes> found;
@@ -226,6 +228,7 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
   rank(found, options.max_hypotheses, result);
   const bool in_time = options.time_budget_s <= 0.0 || ms_since(start) < 1e3 * options.time_budget_s;
   if (result.hypotheses.empty() && !result.proven && in_time) result.reason = "no pose was found that fits";
+  if (result.hypotheses.empty() && options.stop.stop_requested()) result.reason = stopped;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ struct landfall_prior {
 struct landfall_results {
   std::vector<landfall::SearchResult> results;
   std::vector<std::vector<landfall_hypothesis>> hypotheses;  // of each result, as C sees them
+};
+
+struct landfall_stop {
+  std::stop_source source;
 };
 
 namespace landfall::c {

@@ -32,8 +32,7 @@
 extern "C" {
 #endif
 
-/* ---- Errors
- * --------------------------------------------------------------------------------------------------- */
+/* ---- Errors ---- */
 
 typedef enum landfall_status {
   LANDFALL_OK = 0,
@@ -54,8 +53,7 @@ LANDFALL_API const char* landfall_last_error(void);
 /* The library's version, such as "0.1.0". */
 LANDFALL_API const char* landfall_version(void);
 
-/* ---- Values
- * --------------------------------------------------------------------------------------------------- */
+/* ---- Values ---- */
 
 typedef struct landfall_pose {
   double x_m;
@@ -76,8 +74,7 @@ typedef struct landfall_wall {
 /* Values of a grid's cells. */
 enum { LANDFALL_FREE = 0, LANDFALL_OCCUPIED = 1, LANDFALL_UNKNOWN = 2 };
 
-/* ---- Maps
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- Maps ---- */
 
 /* A map with all that a search derives from it; immutable. */
 typedef struct landfall_map landfall_map;
@@ -113,8 +110,7 @@ LANDFALL_API landfall_status landfall_map_save(const landfall_map* map, const ch
 
 LANDFALL_API void landfall_map_free(landfall_map* map);
 
-/* ---- Sensors
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Sensors ---- */
 
 /* A list of beams: a laser scanner, several scanners, a ring of sonars; immutable. */
 typedef struct landfall_sensor landfall_sensor;
@@ -158,8 +154,7 @@ LANDFALL_API size_t landfall_sensor_beam_count(const landfall_sensor* sensor);
 
 LANDFALL_API void landfall_sensor_free(landfall_sensor* sensor);
 
-/* ---- Scans
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- Scans ---- */
 
 /* A list of scans: a log, or what the caller puts together. */
 typedef struct landfall_scans landfall_scans;
@@ -217,8 +212,7 @@ LANDFALL_API landfall_status landfall_scans_merge_turn_minima(const landfall_sca
 
 LANDFALL_API void landfall_scans_free(landfall_scans* scans);
 
-/* ---- Simulation
- * ----------------------------------------------------------------------------------------------- */
+/* ---- Simulation ---- */
 
 /* Noise-free ranges from each pose: ranges_m[i * beam_count + b], +inf where beam b hits nothing within its
  * range_max_m. range_count must be pose_count x beam_count. */
@@ -231,8 +225,7 @@ LANDFALL_API landfall_status landfall_simulate(const landfall_map* map, const la
                                                const landfall_pose* T_map_robot, size_t pose_count,
                                                uint64_t seed, landfall_scans* scans);
 
-/* ---- Priors: where to look, in the map's frame
- * ------------------------------------------------------------------ */
+/* ---- Priors: where to look, in the map's frame ---- */
 
 typedef struct landfall_prior landfall_prior;
 
@@ -276,8 +269,18 @@ LANDFALL_API landfall_status landfall_prior_place(const char* places_path, const
 
 LANDFALL_API void landfall_prior_free(landfall_prior* prior);
 
-/* ---- Search
- * --------------------------------------------------------------------------------------------------- */
+/* ---- Search ---- */
+
+/* Ends searches that are under way, from another thread. */
+typedef struct landfall_stop landfall_stop;
+
+LANDFALL_API landfall_status landfall_stop_new(landfall_stop** stop);
+
+/* Ends every search whose options name it, now and from now on: what is answered stays, the other scans are
+ * lost with a reason. May be called from any thread; not from a signal handler. */
+LANDFALL_API landfall_status landfall_stop_request(landfall_stop* stop);
+
+LANDFALL_API void landfall_stop_free(landfall_stop* stop);
 
 typedef struct landfall_search_options {
   size_t struct_size;
@@ -291,6 +294,7 @@ typedef struct landfall_search_options {
   double robot_radius_m;         /* 0; a pose is possible where this disc is free */
   double distinct_translation_m; /* 0.5; hypotheses nearer than this and the next are one */
   double distinct_rotation_rad;  /* pi / 18 */
+  const landfall_stop* stop;     /* NULL: none; read during the call only */
 } landfall_search_options;
 
 LANDFALL_API void landfall_search_options_init(landfall_search_options* options);
@@ -359,8 +363,7 @@ LANDFALL_API landfall_status landfall_results_get(const landfall_results* result
 
 LANDFALL_API void landfall_results_free(landfall_results* results);
 
-/* ---- What this build can do
- * ------------------------------------------------------------------------------------ */
+/* ---- What this build can do ---- */
 
 typedef struct landfall_method {
   const char* name;

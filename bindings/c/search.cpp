@@ -22,7 +22,8 @@ landfall::SearchOptions search_options(const landfall_search_options* given) {
           .seed = options.seed,
           .robot_radius_m = options.robot_radius_m,
           .distinct_translation_m = options.distinct_translation_m,
-          .distinct_rotation_rad = options.distinct_rotation_rad};
+          .distinct_rotation_rad = options.distinct_rotation_rad,
+          .stop = options.stop == nullptr ? std::stop_token() : options.stop->source.get_token()};
 }
 
 landfall_hypothesis hypothesis_to_c(const landfall::Hypothesis& source) {
@@ -63,7 +64,20 @@ void landfall_search_options_init(landfall_search_options* options) {
               .seed = defaults.seed,
               .robot_radius_m = defaults.robot_radius_m,
               .distinct_translation_m = defaults.distinct_translation_m,
-              .distinct_rotation_rad = defaults.distinct_rotation_rad};
+              .distinct_rotation_rad = defaults.distinct_rotation_rad,
+              .stop = nullptr};
+}
+
+landfall_status landfall_stop_new(landfall_stop** stop) {
+  return guarded(__func__, [&] { required(stop, "stop") = new landfall_stop; });
+}
+
+landfall_status landfall_stop_request(landfall_stop* stop) {
+  return guarded(__func__, [&] { required(stop, "stop").source.request_stop(); });
+}
+
+void landfall_stop_free(landfall_stop* stop) {
+  delete stop;
 }
 
 landfall_status landfall_search(const landfall_map* map, const landfall_prior* prior,

@@ -3,6 +3,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <chrono>
+#include <future>
+#include <stop_token>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -42,6 +45,30 @@ void bind_options(nb::module_& module) {
       });
 }
 
+// A batch may take minutes, and Python acts on Ctrl-C only where somebody asks it to. A single scan is not
+// worth the thread: a tracked one takes as long as starting it.
+std::vector<SearchResult> search_interruptibly(const std::vector<PreparedMap>& maps,
+                                               const std::vector<PosePrior>& priors,
+                                               const std::vector<Scan>& scans, SearchOptions options) {
+  if (scans.size() < 2) return search(maps, priors, scans, options);
+  constexpr std::chrono::milliseconds between_looks{50};
+  std::stop_source source;
+  options.stop = source.get_token();
+  std::future<std::vector<SearchResult>> answers =
+      std::async(std::launch::async, [&] { return search(maps, priors, scans, options); });
+  while (answers.wait_for(between_looks) != std::future_status::ready) {
+    const nb::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() == 0) continue;
+    source.request_stop();
+    {
+      const nb::gil_scoped_release released;
+      answers.wait();
+    }
+    throw nb::python_error();
+  }
+  return answers.get();
+}
+
 }  // namespace
 
 void bind_search(nb::module_& module) {
@@ -51,7 +78,7 @@ void bind_search(nb::module_& module) {
       [](const std::vector<PreparedMap>& maps, const std::vector<PriorArgument>& given,
          const std::vector<Scan>& scans, const SearchOptions& options) {
         const std::vector<PosePrior> priors(given.begin(), given.end());
-        return search(maps, priors, scans, options);
+        return search_interruptibly(maps, priors, scans, options);
       },
       "maps"_a, "priors"_a, "scans"_a, "options"_a, nb::call_guard<nb::gil_scoped_release>(),
       "results[i] answers scans[i]; one prior for all scans, or one per scan. landfall.search() is the\n"

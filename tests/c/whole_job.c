@@ -133,6 +133,34 @@ static void search_by_diffusion(const landfall_map* map, const landfall_scans* s
   }
 }
 
+/* A stop that was asked for before the search ends it at once; one that was not changes nothing. */
+static void search_with_a_stop(const landfall_map* map, const landfall_scans* scans) {
+  landfall_prior* prior = NULL;
+  landfall_stop* stop = NULL;
+  landfall_results* results = NULL;
+  landfall_result result;
+  landfall_search_options options;
+  landfall_search_options_init(&options);
+  CHECK(options.stop == NULL);
+  CHECK_OK(landfall_stop_new(&stop));
+  CHECK_OK(landfall_prior_anywhere(&prior));
+  options.stop = stop;
+  CHECK_OK(landfall_search(map, prior, scans, &options, &results));
+  check_pose(results, 0);
+  landfall_results_free(results);
+
+  CHECK_OK(landfall_stop_request(stop));
+  CHECK_OK(landfall_search(map, prior, scans, &options, &results));
+  CHECK(landfall_results_count(results) == 2);
+  CHECK_OK(landfall_results_get(results, 1, &result));
+  CHECK(result.verdict == LANDFALL_LOST && result.hypothesis_count == 0 && result.proven == 0);
+  CHECK(strcmp(result.reason, "stopped before any pose was scored") == 0);
+  landfall_results_free(results);
+  landfall_stop_free(stop);
+  landfall_stop_free(NULL);
+  landfall_prior_free(prior);
+}
+
 static void list_methods(void) {
   int found = 0;
   for (size_t i = 0; i < landfall_method_count(); ++i) {
@@ -163,6 +191,7 @@ int main(void) {
   search_under_every_prior(map, scans);
   search_under_a_mixture_of_two_maps(map, scans);
   search_by_diffusion(map, scans);
+  search_with_a_stop(map, scans);
   list_methods();
   landfall_scans_free(scans);
   landfall_map_free(map);

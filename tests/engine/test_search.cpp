@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stop_token>
+#include <thread>
 
 #include "drawn_map.hpp"
 #include "landfall/error.hpp"
@@ -252,6 +255,40 @@ TEST_F(SearchInARoom, RaysThatTellPosesApartAreCounted) {
   ASSERT_FALSE(result.hypotheses.empty());
   EXPECT_GT(result.counts.rays_cast, 20 * 120);
   EXPECT_EQ(result.counts.rays_cast % 120, 0);
+}
+
+TEST_F(SearchInARoom, AStopEndsASearchThatIsUnderWay) {
+  std::stop_source source;
+  const SearchOptions options{.method = "exhaustive",
+                              .rotation_step_rad = 2.0 * std::numbers::pi / 36'000,
+                              .threads = 1,
+                              .stop = source.get_token()};
+  const std::vector<Scan> scans(200, scan);  // minutes of work
+  std::thread stopper([&source] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    source.request_stop();
+  });
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<SearchResult> results = search(map, {Anywhere{}}, scans, options);
+  const std::chrono::duration<double> took_s = std::chrono::steady_clock::now() - start;
+  stopper.join();
+  EXPECT_LT(took_s.count(), 20.0);
+  ASSERT_EQ(results.size(), scans.size());
+  EXPECT_FALSE(results.back().proven);
+  EXPECT_EQ(results.back().verdict, Verdict::lost);
+  EXPECT_EQ(results.back().reason, "stopped before any pose was scored");
+}
+
+TEST_F(SearchInARoom, ATokenThatNobodyPullsChangesNothing) {
+  std::stop_source source;
+  SearchOptions options = coarse;
+  const SearchResult without = search(map, {Anywhere{}}, scan, options);
+  options.stop = source.get_token();
+  const SearchResult with = search(map, {Anywhere{}}, scan, options);
+  EXPECT_TRUE(with.proven);
+  ASSERT_EQ(with.hypotheses.size(), without.hypotheses.size());
+  EXPECT_EQ(with.hypotheses[0].score, without.hypotheses[0].score);
+  EXPECT_EQ(with.hypotheses[0].T_map_robot, without.hypotheses[0].T_map_robot);
 }
 
 TEST_F(SearchInARoom, ABatchEqualsItsScansOneByOne) {

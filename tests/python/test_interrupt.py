@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
+import threading
 import time
 
 import landfall
@@ -61,3 +62,16 @@ def test_slam_stops_with_the_map_so_far(files, landfall_command, monkeypatch):
     assert done.code == 130 and "stopped after 3 of 12 scans" in done.err
     assert [stamp_s for stamp_s, _ in landfall.load_trajectory(path)] == [100.0, 101.0, 102.0]
     assert (landfall.load_grid_map(out).cells == 1).any() and gif.stat().st_size > 0
+
+
+def test_ctrl_c_ends_a_batch_from_python(prepared, scans):
+    """Minutes of work; the signal comes from a timer, as from a terminal."""
+    many = [scan for _ in range(500) for scan in scans]
+    timer = threading.Timer(0.5, lambda: signal.raise_signal(signal.SIGINT))
+    started_s = time.monotonic()
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        landfall.search(prepared, None, many, method="exhaustive", rotation_step_rad=2e-4)
+    assert time.monotonic() - started_s < 20.0
+    timer.join()
+    assert landfall.search(prepared, None, scans[:2])[1].verdict == "found"  # as before

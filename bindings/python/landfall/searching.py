@@ -77,9 +77,9 @@ def search(map, prior, scans, **options):  # type: ignore[no-untyped-def]
         (0: all), seed (0), robot_radius_m (0), distinct_translation_m (0.5), distinct_rotation_rad
         (10 degrees).
 
-    The GIL is released meanwhile. A scan with no valid beam is an answer (lost), not an error. Raises
-    InvalidArgument (an option, prior or scan that does not validate; a prior entirely off the map),
-    WrongType, UnknownName (a method), UnknownOption.
+    The GIL is released meanwhile, and Ctrl-C ends a batch. A scan with no valid beam is an answer (lost), not
+    an error. Raises InvalidArgument (an option, prior or scan that does not validate; a prior entirely off
+    the map), WrongType, UnknownName (a method), UnknownOption.
     """
     one = isinstance(scans, Scan)
     results = search_batch(_maps(map), _priors(prior), _scans(scans), search_options(**options))

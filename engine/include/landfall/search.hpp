@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,9 @@ struct SearchOptions {
   double robot_radius_m = 0.0;          // a pose is possible where this disc is free
   double distinct_translation_m = 0.5;  // hypotheses nearer than both are one
   double distinct_rotation_rad = std::numbers::pi / 18.0;  // 10 degrees
+  // Another thread's std::stop_source ends the search as a time budget would: what is answered stays, the
+  // other scans are lost with a reason.
+  std::stop_token stop{};
 };
 
 struct Hypothesis {
