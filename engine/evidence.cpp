@@ -42,14 +42,13 @@ RivalMargin second_margin(std::size_t points) {
   return {.most_score = share * 255.0 * static_cast<double>(points)};
 }
 
-double elsewhere_weight(double share, double lead_nats) {
-  constexpr double even_share = 0.925;
-  constexpr double nats_per_share = 38.0;
-  constexpr double nats_per_lead = 0.95;
+double elsewhere_weight(double share, double held_m2) {
+  constexpr double even_share = 0.955;  // where 1 m2 is held
+  constexpr double nats_per_share = 60.0;
+  constexpr double power_of_held = 2.5;
   constexpr double most_nats = 50.0;
-  constexpr double longest_lead_nats = 4.5;
-  const double lead = std::clamp(lead_nats, 0.0, longest_lead_nats);
-  return std::exp(std::min(most_nats, nats_per_share * (even_share - share) - nats_per_lead * lead));
+  return std::exp(
+      std::min(most_nats, nats_per_share * (even_share - share) - power_of_held * std::log(held_m2)));
 }
 
 }  // namespace landfall::internal

@@ -48,11 +48,11 @@ inline constexpr double unseen_weight = 0.01;
 inline constexpr double explains_more_nats = 30.0;
 
 // What weighs, beside the best pose, that the scan is from no place of the map: a pose found by chance
-// matches less well, and others come close. share: with what blocked beams earn back, for people and
+// matches less well, and less of a wall. share: with what blocked beams earn back, for people and
 // furniture end beams before a wall, while beams of a pose found by chance end on either side of it.
-// lead_nats: what the best pose is ahead of the next.
+// held_m2: contour that the map confirms (contour.hpp).
 inline constexpr double blocked_share = 0.6;
-double elsewhere_weight(double share, double lead_nats);
+double elsewhere_weight(double share, double held_m2);
 
 // The same, beside all poses of the prior, where ranges are compared (range_posterior.hpp).
 inline constexpr double elsewhere_odds = 0.05;

@@ -114,10 +114,11 @@ double most_log_readings(const std::vector<Modes>& maps) {
 }
 
 // What weighs beside the best pose that it is none.
-double elsewhere(const Ranked& best, double lead_nats) {
+double elsewhere(const Ranked& best) {
   const double lattice_share = share_of(best.mode.best.score, best.map->points);
   const double share = std::min(1.0, lattice_share + best.map->missed_share);
-  return elsewhere_weight(share + blocked_share * best.mode.verification.blocked, lead_nats);
+  const Verification& verification = best.mode.verification;
+  return elsewhere_weight(share + blocked_share * verification.blocked, verification.held_m2);
 }
 
 std::vector<Ranked> in_order(const std::vector<Modes>& maps) {
@@ -160,8 +161,7 @@ double log_total(const std::vector<Modes>& maps, const std::vector<Ranked>& all)
   for (const Modes& map : maps) total = log_add(total, map.log_rest);
   for (const Ranked& one : all) total = log_add(total, one.log_mass);
   const Ranked& best = all.front();
-  const double lead_nats = best.log_mass - (all.size() > 1 ? all[1].log_mass : nothing);
-  return log_add(total, best.log_mass + std::log(unseen_weight + elsewhere(best, lead_nats)));
+  return log_add(total, best.log_mass + std::log(unseen_weight + elsewhere(best)));
 }
 
 // The same by ranges: the posterior knows all the poses that it compared.

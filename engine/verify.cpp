@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contour.hpp"
 #include "engine/to_raycast.hpp"
 #include "engine/wall_depth.hpp"
 
@@ -45,6 +46,18 @@ std::vector<ValidBeam> valid_beams(const Scan& scan, double resolution_m) {
   return beams;
 }
 
+std::vector<ContourPiece> contour_of(const Scan& scan, const std::vector<ValidBeam>& valid) {
+  std::vector<EchoRay> echoes;
+  echoes.reserve(valid.size());
+  for (const ValidBeam& beam : valid) {
+    if (!beam.echo) continue;
+    const Pose2& T_robot_beam = scan.sensor->beams[beam.beam].T_robot_beam;
+    echoes.push_back({.origin_robot = {.x_m = T_robot_beam.x_m, .y_m = T_robot_beam.y_m},
+                      .end_robot = T_robot_beam * Point2{.x_m = beam.range_m, .y_m = 0.0}});
+  }
+  return find_contour(echoes);
+}
+
 // Measured less simulated range, for whichever of the three simulated ones fits best; +-inf: an echo
 // where the map has none, and the reverse.
 float mismatch_m(const ValidBeam& beam, const std::array<float, 3>& simulated_m) {
@@ -68,16 +81,22 @@ bool is_from_within_wall(const PreparedState& map, const Pose2& T_map_beam, cons
 }
 
 Verification judge(const PreparedState& map, const Sensor& sensor, const Pose2& T_map_robot,
-                   const std::vector<ValidBeam>& valid, std::span<const float> simulated_m) {
+                   const std::vector<ValidBeam>& valid, std::span<const ContourPiece> contour,
+                   std::span<const float> simulated_m) {
   constexpr float well_off_m = 0.5F;
   Verification sums;
+  std::vector<bool> echo_explained;
+  echo_explained.reserve(valid.size());
   for (std::size_t i = 0; i < valid.size(); ++i) {
     const float here_m = simulated_m[i];
     const float before_m = i > 0 && valid[i - 1].next_is_neighbour ? simulated_m[i - 1] : here_m;
     const float after_m = valid[i].next_is_neighbour ? simulated_m[i + 1] : here_m;
     const float off_m = mismatch_m(valid[i], {before_m, here_m, after_m});
-    if (std::abs(off_m) <= valid[i].tolerance_m ||
-        is_from_within_wall(map, T_map_robot * sensor.beams[valid[i].beam].T_robot_beam, valid[i], here_m)) {
+    const bool explained =
+        std::abs(off_m) <= valid[i].tolerance_m ||
+        is_from_within_wall(map, T_map_robot * sensor.beams[valid[i].beam].T_robot_beam, valid[i], here_m);
+    if (valid[i].echo) echo_explained.push_back(explained);
+    if (explained) {
       sums.explained += 1.0;
       continue;
     }
@@ -87,7 +106,8 @@ Verification judge(const PreparedState& map, const Sensor& sensor, const Pose2& 
   const auto count = static_cast<double>(valid.size());
   return {.explained = sums.explained / count,
           .blocked = sums.blocked / count,
-          .seen_through = sums.seen_through / count};
+          .seen_through = sums.seen_through / count,
+          .held_m2 = held_m2(contour, echo_explained)};
 }
 
 }  // namespace
@@ -106,9 +126,10 @@ std::vector<Verification> verify(const PreparedState& map, const Scan& scan,
   for (const Pose2& pose : T_map_robot) poses.push_back(to_raycast(pose));
   std::vector<float> simulated_m(poses.size() * beams.size());
   map.scene().cast_fans(poses, beams, simulated_m);
+  const std::vector<ContourPiece> contour = contour_of(scan, valid);
   for (std::size_t p = 0; p < poses.size(); ++p) {
     const auto of_pose = std::span<const float>(simulated_m).subspan(p * beams.size(), beams.size());
-    answers[p] = judge(map, *scan.sensor, T_map_robot[p], valid, of_pose);
+    answers[p] = judge(map, *scan.sensor, T_map_robot[p], valid, contour, of_pose);
   }
   return answers;
 }

@@ -9,11 +9,12 @@
 
 namespace landfall::internal {
 
-// Shares of a scan's valid beams.
+// Shares of a scan's valid beams, and what the explained ones are good for.
 struct Verification {
   double explained = 0.0;     // the map says the same
   double blocked = 0.0;       // an echo well before the wall: something stood there that the map lacks
   double seen_through = 0.0;  // an echo well behind the wall: hardly to be had
+  double held_m2 = 0.0;       // contour that holds the pose (contour.hpp)
 };
 
 // What the map says of a scan from each pose. A beam is explained where the simulated range, or that of

@@ -18,13 +18,16 @@ using ::testing::HasSubstr;
 constexpr std::size_t echoes = 100;
 constexpr int perfect_score = 255 * static_cast<int>(echoes);
 
+constexpr double room_m2 = 20.0;  // what the walls of a room hold
+
 Mode mode_of(double share, double explained, double log_prior = 0.0, int map_index = 0) {
   Mode mode;
   mode.best.score = static_cast<std::int32_t>(share * perfect_score);
   mode.share = share;
   mode.log_prior = log_prior;
   mode.map_index = map_index;
-  mode.verification = {.explained = explained, .blocked = 1.0 - explained, .seen_through = 0.0};
+  mode.verification = {
+      .explained = explained, .blocked = 1.0 - explained, .seen_through = 0.0, .held_m2 = room_m2};
   mode.hypothesis.explained = explained;
   mode.hypothesis.score = mode.best.score;
   return mode;
@@ -84,6 +87,16 @@ TEST(Rank, APoseFoundByChanceIsNotCalledFound) {
   EXPECT_EQ(ranked({modes_of({mode_of(0.85, 0.9)})}).verdict, Verdict::found);
   EXPECT_EQ(ranked({modes_of({mode_of(0.75, 0.9)})}).verdict, Verdict::ambiguous);
   EXPECT_EQ(ranked({modes_of({mode_of(0.85, 0.9), mode_of(0.82, 0.9)})}).verdict, Verdict::ambiguous);
+}
+
+// A wall of 6 m with 10 cm of something across, beside a room: of the same fit.
+TEST(Rank, APoseThatLittleContourHoldsIsNotCalledFound) {
+  Mode mode = mode_of(0.95, 0.98);
+  EXPECT_EQ(ranked({modes_of({mode})}).verdict, Verdict::found);
+  mode.verification.held_m2 = (6.0 + 0.2) * (0.1 + 0.2);
+  const SearchResult corridor = ranked({modes_of({mode})});
+  EXPECT_EQ(corridor.verdict, Verdict::ambiguous);
+  EXPECT_GT(corridor.hypotheses.at(0).probability, 0.5);
 }
 
 TEST(Rank, ARivalThatExplainsMoreBeamsShakesTheBest) {

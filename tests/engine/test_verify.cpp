@@ -93,6 +93,22 @@ TEST(Verify, ANeighboursRangeExplainsABeamAtAnEdge) {
   expect_shares(verify(with_pillar, two_beams(0.1), {1.0, 2.5, 0.0}), 0.0, 0.5, 0.5);
 }
 
+// A corridor of 2 m between walls of 12 m, open at its ends, beside a room: metres of wall, once along two
+// directions and once along one. From a pose that the map does not explain neither holds anything.
+TEST(Verify, ARoomHoldsAPoseAndACorridorHardly) {
+  GridMap corridor = testing::empty_room(120, 22, 0.1);
+  testing::fill(corridor, {0, 1}, {0, 20}, Occupancy::free);
+  testing::fill(corridor, {119, 1}, {119, 20}, Occupancy::free);
+  const auto held_m2 = [](const GridMap& grid, const Pose2& truth, const Pose2& T_map_robot) {
+    return verify(grid, testing::look(PreparedMap(grid), testing::full_circle(360), truth), T_map_robot)
+        .held_m2;
+  };
+  EXPECT_GT(held_m2(room, middle, middle), 60.0);
+  EXPECT_LT(held_m2(room, middle, middle), (9.6 + 0.2) * (9.6 + 0.2));
+  EXPECT_LT(held_m2(corridor, {6.0, 1.1, 0.0}, {6.0, 1.1, 0.0}), 20.0);
+  EXPECT_LT(held_m2(room, middle, {1.5, 1.5, pi / 4}), 5.0);
+}
+
 TEST(Verify, TheTruePoseOfACleanScanExplainsItAll) {
   const PreparedMap map(testing::furnished_room({3.0, -2.0, 0.7}));
   std::vector<Pose2> T_map_robot(20);
