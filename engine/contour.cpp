@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace landfall::internal {
 namespace {
@@ -28,14 +26,27 @@ class Places {
     const auto square = [](double a_m, double b_m) {
       return static_cast<long>(std::floor(0.5 * (a_m + b_m) / place_m));
     };
-    double& taken_m = taken_m_[{square(a.x_m, b.x_m), square(a.y_m, b.y_m)}];
+    double& taken_m = taken_at(square(a.x_m, b.x_m), square(a.y_m, b.y_m));
     const double left_m = std::min(length_m, place_m - taken_m);
     taken_m += left_m;
     return left_m;
   }
 
  private:
-  std::map<std::pair<long, long>, double> taken_m_;
+  struct Place {
+    long x, y;
+    double taken_m;
+  };
+
+  // From the newest: the next piece mostly lies where the last one did.
+  double& taken_at(long x, long y) {
+    const auto found = std::find_if(places_.rbegin(), places_.rend(),
+                                    [&](const Place& place) { return place.x == x && place.y == y; });
+    return found != places_.rend() ? found->taken_m
+                                   : places_.emplace_back(Place{.x = x, .y = y, .taken_m = 0.0}).taken_m;
+  }
+
+  std::vector<Place> places_;
 };
 
 ContourPiece stretch(std::span<const EchoRay> echoes, std::size_t first, std::size_t last) {
