@@ -1,6 +1,7 @@
 #include "raycast/embree_walls.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -11,6 +12,14 @@ namespace {
 
 // Low, so that the tree of boxes is split by what rays in the plane meet: 4 to 7 % over 0.5 m.
 constexpr float half_height_m = 0.01f;
+
+// Beyond it Embree takes no origin: builds with assertions, as Debian's, end the program.
+constexpr float farthest_origin_m = 1e18f;
+
+// Of what is not a number neither is true.
+bool is_traceable(float x_m, float y_m) {
+  return std::abs(x_m) <= farthest_origin_m && std::abs(y_m) <= farthest_origin_m;
+}
 
 void check(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
@@ -89,7 +98,7 @@ void EmbreeWalls::trace(const RayPacket& packet, std::size_t count, Coherence co
   RTCRayHit8 lanes;
   alignas(32) std::array<int, packet_rays> valid;
   for (std::size_t i = 0; i < packet_rays; ++i) {
-    valid[i] = i < count ? -1 : 0;
+    valid[i] = i < count && is_traceable(packet.x_m[i], packet.y_m[i]) ? -1 : 0;
     lanes.ray.org_x[i] = packet.x_m[i];
     lanes.ray.org_y[i] = packet.y_m[i];
     lanes.ray.org_z[i] = 0.0f;

@@ -55,6 +55,29 @@ TEST(SimulateRanges, ASonarSeesTheNearestPointOfItsCone) {
   EXPECT_NEAR(ranges_m[4], 0.3f, 1e-6);                    // turned by 45 degrees: the edge is head on
 }
 
+// Numbers that a raycaster may not take: as far as doubles go, by the pose or by the mount.
+TEST(SimulateRanges, SaysInfinityFromAnywhereFarAway) {
+  const PreparedMap plan(WallMap{.walls = {{{0.0, 0.0}, {10.0, 0.0}}, {{10.0, 0.0}, {10.0, 5.0}}}});
+  for (const PreparedMap& map : {PreparedMap(room), plan}) {
+    for (const double far_m : {1e17, 1e19, 1e38, 1e39, 1e300, 1.7e308}) {
+      for (const double half_angle_rad : {0.0, 0.1}) {
+        Sensor sensor = four_beams(3.0);
+        sensor.beams[1].T_robot_beam.x_m = far_m;
+        sensor.beams[2].T_robot_beam.y_m = -far_m;
+        for (Beam& beam : sensor.beams) beam.half_angle_rad = half_angle_rad;
+        const std::vector<Pose2> poses{{1.0, 1.0, 0.0}, {far_m, 1.0, 0.5}, {1.0, -far_m, 0.0}};
+        const std::vector<float> ranges_m = simulate_ranges(map, sensor, poses);
+        for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+          EXPECT_FALSE(std::isnan(ranges_m[i])) << far_m << " " << i;
+          if (i != 0 && i != 3) {
+            EXPECT_EQ(ranges_m[i], infinity) << far_m << " " << i;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(RayCaster, IsNamedByMapAndBeams) {
   const PreparedMap grid(room);
   const PreparedMap plan(WallMap{.walls = {{{0.0, 0.0}, {10.0, 0.0}}, {{10.0, 0.0}, {10.0, 5.0}}}});
