@@ -63,6 +63,7 @@ std::string to_line(const Scan& scan) {
 
 Log read_scan_lines(const LogSource& source, const LoadLogOptions& options) {
   SensorsByName sensors = options.sensors;
+  FanBudget budget;
   Log log;
   Lines lines(source.text);
   for (std::string_view line; lines.next(line);) {
@@ -75,8 +76,11 @@ Log read_scan_lines(const LogSource& source, const LoadLogOptions& options) {
     }
     root.expect_only({"sensor"});
     Sensor sensor = read_sensor(root.at("sensor"));
-    const std::string name = sensor.name;
-    if (!options.sensors.contains(name)) sensors[name] = std::make_shared<const Sensor>(std::move(sensor));
+    if (options.sensors.contains(sensor.name)) continue;
+    std::shared_ptr<const Sensor>& known = sensors[sensor.name];
+    if (known && *known == sensor) continue;  // logs may say it again before each scan
+    budget.spend(root.at("sensor"), sensor);
+    known = std::make_shared<const Sensor>(std::move(sensor));
   }
   return log;
 }

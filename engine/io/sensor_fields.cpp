@@ -136,6 +136,15 @@ Sensor read_sensor(const Field& field) {
   return sensor;
 }
 
+void FanBudget::spend(const Field& field, const Sensor& sensor) {
+  if (!field.find("fan")) return;  // a list has as many beams as the file has room for
+  if (sensor.beams.size() > beams_left_)
+    fail_format(field.place(), "fan.beams",
+                std::to_string(sensor.beams.size()) + " on top of those of other sensors",
+                "at most " + std::to_string(beams_left_), ErrorCode::too_large);
+  beams_left_ -= sensor.beams.size();
+}
+
 std::string to_json(const Sensor& sensor) {
   std::string text = "{\"name\": " + json_text(sensor.name);
   append_member(text, "range_noise_m", sensor.range_noise_m);

@@ -10,8 +10,9 @@ namespace landfall {
 namespace io {
 namespace {
 
-void add(SensorsByName& sensors, const Field& field) {
+void add(SensorsByName& sensors, const Field& field, FanBudget& budget) {
   const Sensor sensor = read_sensor(field);
+  budget.spend(field, sensor);
   if (!sensors.emplace(sensor.name, std::make_shared<const Sensor>(sensor)).second)
     field.at("name").fail("a name that is not taken yet");
 }
@@ -22,18 +23,20 @@ SensorsByName read_sensors_yaml(std::string_view yaml, const std::string& file) 
   const Document document = Document::from_yaml(yaml, file);
   const Field root = document.root();
   SensorsByName sensors;
+  FanBudget budget;
   if (const std::optional<Field> list = root.find("sensors")) {
     root.expect_only({"sensors"});
-    for (const Field& field : list->items()) add(sensors, field);
+    for (const Field& field : list->items()) add(sensors, field, budget);
     if (sensors.empty()) list->fail("at least one sensor");
   } else {
-    add(sensors, root);
+    add(sensors, root, budget);
   }
   return sensors;
 }
 
 SensorsByName read_sensor_lines(std::string_view jsonl, const std::string& file) {
   SensorsByName sensors;
+  FanBudget budget;
   Lines lines(jsonl);
   for (std::string_view line; lines.next(line);) {
     if (Words(line).next().empty()) continue;
@@ -41,7 +44,10 @@ SensorsByName read_sensor_lines(std::string_view jsonl, const std::string& file)
     const std::optional<Field> sensor = document.root().find("sensor");
     if (!sensor || !sensor->is_object()) continue;
     const Sensor read = read_sensor(*sensor);
-    sensors.insert_or_assign(read.name, std::make_shared<const Sensor>(read));
+    std::shared_ptr<const Sensor>& known = sensors[read.name];
+    if (known && *known == read) continue;  // logs may say it again before each scan
+    budget.spend(*sensor, read);
+    known = std::make_shared<const Sensor>(read);
   }
   if (sensors.empty()) fail_format({file}, "", "no sensor line", "at least one");
   return sensors;

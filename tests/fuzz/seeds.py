@@ -95,6 +95,7 @@ def seeds():
         "sensor": [
             sensor.encode(),
             b"sensors:\n  - {name: a, beams: [" + json.dumps(BEAM).encode() + b"]}\n",
+            SCAN_LINES.encode(),
         ],
         "sonar_tables": [CORRIDOR8 + b"\x002000 1500 -250 900\n2500 0 0 -1800\n", SCITOS24],
         "trajectory": [b"# t tx ty tz qx qy qz qw\n1.5 1 2 0 0 0 0.70710678 0.70710678\n2 0 0 0 0 0 1 0\n"],

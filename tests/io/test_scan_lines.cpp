@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -94,6 +95,24 @@ TEST_F(ScanLines, InfinityIsWrittenAsTheMaximumAndNegativeAsInvalid) {
   const Scan back = load_log(at("drive.jsonl")).scans.at(0);
   EXPECT_EQ(classify(laser->beams[0], back.ranges_m[0]), Reading::no_echo);
   EXPECT_EQ(classify(laser->beams[1], back.ranges_m[1]), Reading::invalid);
+}
+
+TEST_F(ScanLines, FansOfAFileShareALimit) {
+  const auto line = [](const std::string& name) {
+    return R"({"sensor": {"name": ")" + name +
+           R"(", "fan": {"beams": 1000000, "first_rad": 0, "step_rad": 0.1, "range_max_m": 8}}})" + "\n";
+  };
+  std::string again;
+  std::string others;
+  for (int i = 0; i < 11; ++i) {
+    again += line("same");
+    others += line("s" + std::to_string(i));
+  }
+  EXPECT_EQ(load_sensors(write("again.jsonl", again)).size(), 1U);
+  EXPECT_TRUE(load_log(write("again.jsonl", again)).scans.empty());
+  for (const auto& load : {std::function<void()>([&] { load_log(write("others.jsonl", others)); }),
+                           std::function<void()>([&] { load_sensors(write("others.jsonl", others)); })})
+    expect_error(load, ErrorCode::too_large, {"others.jsonl:11", "fan.beams", "1000000"});
 }
 
 TEST_F(ScanLines, Faults) {

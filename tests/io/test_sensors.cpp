@@ -55,6 +55,20 @@ TEST_F(Sensors, Fan) {
   EXPECT_EQ(sensor.beams[1].range_max_m, 30.0);
 }
 
+// A line of a few words asks for a million beams: a short file must not fill the memory.
+TEST_F(Sensors, FansOfAFileShareALimit) {
+  const auto fan = [](int number, int beams) {
+    return "{name: s" + std::to_string(number) + ", fan: {beams: " + std::to_string(beams) +
+           ", first_rad: 0, step_rad: 0.1, range_max_m: 8}}";
+  };
+  std::string list = "sensors:\n";
+  for (int i = 0; i < 9; ++i) list += "  - " + fan(i, 1'000) + "\n";
+  EXPECT_EQ(load(list).size(), 9U);
+  list = "sensors:\n";
+  for (int i = 0; i < 11; ++i) list += "  - " + fan(i, 1'000'000) + "\n";
+  expect_error([&] { load(list); }, ErrorCode::too_large, {"sensor.yaml:12", "fan.beams", "1000000"});
+}
+
 TEST_F(Sensors, SeveralInOneFile) {
   const auto sensors = load(R"(sensors:
   - {name: front, fan: {beams: 2, first_rad: 0, step_rad: 0.1, range_max_m: 8}}
