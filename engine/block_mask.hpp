@@ -9,6 +9,20 @@
 
 namespace landfall::internal {
 
+// Cells [col0, col1] x [row0, row1]; none by default.
+struct CellRange {
+  int col0 = 0;
+  int row0 = 0;
+  int col1 = -1;
+  int row1 = -1;
+  [[nodiscard]] bool empty() const { return col0 > col1 || row0 > row1; }
+};
+
+// The least multiple of `step` that is not below a value >= 0.
+inline int next_multiple(int value, int step) {
+  return (value + step - 1) / step * step;
+}
+
 struct BlockMask {
   int first_col = 0;  // of the stored rectangle, in blocks
   int first_row = 0;
@@ -28,6 +42,11 @@ struct BlockMask {
     const auto c = static_cast<std::size_t>(cell_col / kernels::block_cells - first_col);
     const auto r = static_cast<std::size_t>(cell_row / kernels::block_cells - first_row);
     words[r * static_cast<std::size_t>(cols) + c] |= std::uint64_t{1} << bit_of(cell_col, cell_row);
+  }
+  // Cells of block (col, row), which the rectangle has to hold.
+  void insert_block(int col, int row, std::uint64_t cells) {
+    words[static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(cols) +
+          static_cast<std::size_t>(col - first_col)] |= cells;
   }
   [[nodiscard]] bool contains(int cell_col, int cell_row) const {
     if (cell_col < 0 || cell_row < 0) return false;

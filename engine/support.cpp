@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
+
+#include "engine/gaussian_cells.hpp"
+#include "engine/polygon_rows.hpp"
 
 namespace landfall::internal {
 namespace {
@@ -11,23 +13,36 @@ namespace {
 constexpr double sigmas = 3.0;
 constexpr double slack = 1e-9;  // a border drawn exactly through a lattice pose includes it
 
-struct CellBox {
-  int col0, row0, col1, row1;
-};
-
 struct MapBox {
   double x0_m, y0_m, x1_m, y1_m;
 };
 
+MapBox around(const Point2& middle, double half_x_m, double half_y_m) {
+  return {middle.x_m - half_x_m, middle.y_m - half_y_m, middle.x_m + half_x_m, middle.y_m + half_y_m};
+}
+
+CellRange united(const CellRange& a, const CellRange& b) {
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  return {std::min(a.col0, b.col0), std::min(a.row0, b.row0), std::max(a.col1, b.col1),
+          std::max(a.row1, b.row1)};
+}
+
+BlockMask make_mask(const CellRange& box) {
+  return box.empty() ? BlockMask{} : make_block_mask(box.col0, box.row0, box.col1, box.row1);
+}
+
 // The grid cells whose centres may lie in a box of the map frame, widened by a cell; clamped.
-CellBox cells_around(const Lattice& lattice, const MapBox& box) {
+CellRange cells_around(const Lattice& lattice, const MapBox& box) {
   double col0 = 1e18;
   double row0 = 1e18;
   double col1 = -1e18;
   double row1 = -1e18;
+  constexpr double farthest_m = 1e100;  // no sum of these is infinite
   for (const Point2 corner : {Point2{box.x0_m, box.y0_m}, Point2{box.x1_m, box.y0_m},
                               Point2{box.x0_m, box.y1_m}, Point2{box.x1_m, box.y1_m}}) {
-    const Point2 p_grid = inverse(lattice.T_map_grid) * corner;
+    const Point2 p_grid =
+        inverse(lattice.T_map_grid) * Point2{.x_m = std::clamp(corner.x_m, -farthest_m, farthest_m),
+                                             .y_m = std::clamp(corner.y_m, -farthest_m, farthest_m)};
     col0 = std::min(col0, p_grid.x_m / lattice.resolution_m);
     col1 = std::max(col1, p_grid.x_m / lattice.resolution_m);
     row0 = std::min(row0, p_grid.y_m / lattice.resolution_m);
@@ -42,22 +57,22 @@ CellBox cells_around(const Lattice& lattice, const MapBox& box) {
           std::min(lattice.height_cells - 1, clamp(row1 + 1, lattice.height_cells))};
 }
 
-template <class Visit>
-void visit_cells(const BlockMask& mask, const Visit& visit) {
-  using kernels::block_cells;
-  std::size_t i = 0;
-  for (int r = 0; r < mask.rows; ++r) {
-    for (int c = 0; c < mask.cols; ++c) {
-      const std::uint64_t word = mask.words[i++];
-      for (int bit = 0; word != 0 && bit < kernels::block_poses; ++bit)
-        if ((word >> bit) & 1U)
-          visit((mask.first_col + c) * block_cells + bit % block_cells,
-                (mask.first_row + r) * block_cells + bit / block_cells);
-    }
-  }
-}
-
 class SupportBuilder {
+ private:
+  [[nodiscard]] Point2 center(int col, int row) const {
+    const double x_m = (col + 0.5) * lattice_.resolution_m;
+    const double y_m = (row + 0.5) * lattice_.resolution_m;
+    return {lattice_.T_map_grid.x_m + cos_grid_ * x_m - sin_grid_ * y_m,
+            lattice_.T_map_grid.y_m + sin_grid_ * x_m + cos_grid_ * y_m};
+  }
+  // A condition on points as what insert_cells() asks: row -> (column -> is its centre inside?).
+  template <class Inside>
+  [[nodiscard]] auto by_centers(const Inside& inside) const {
+    return [this, &inside](int row) {
+      return [this, &inside, row](int col) { return inside(center(col, row)); };
+    };
+  }
+
  public:
   SupportBuilder(const Lattice& lattice, const SharedMask& free) : lattice_(lattice), free_(free) {
     out_.mask_of_heading.resize(static_cast<std::size_t>(lattice.headings));
@@ -69,60 +84,77 @@ class SupportBuilder {
   }
 
   void add(const Window& window) {
-    const Pose2& center = window.T_map_robot;
+    const Point2 middle{window.T_map_robot.x_m, window.T_map_robot.y_m};
     const auto inside = [&](const Point2& p) {
-      return std::abs(p.x_m - center.x_m) <= window.half_x_m + slack &&
-             std::abs(p.y_m - center.y_m) <= window.half_y_m + slack;
+      return std::abs(p.x_m - middle.x_m) <= window.half_x_m + slack &&
+             std::abs(p.y_m - middle.y_m) <= window.half_y_m + slack;
     };
-    const MapBox box{center.x_m - window.half_x_m, center.y_m - window.half_y_m, center.x_m + window.half_x_m,
-                     center.y_m + window.half_y_m};
-    add_cone(cells_or_nearest(box, inside, {center.x_m, center.y_m}), center.theta_rad,
-             window.half_theta_rad);
+    const CellRange box = cells_around(lattice_, around(middle, window.half_x_m, window.half_y_m));
+    BlockMask mask = make_mask(united(box, nearest_cell(middle)));
+    insert_or_nearest(box, by_centers(inside), middle, mask);
+    add_cone(std::move(mask), window.T_map_robot.theta_rad, window.half_theta_rad);
   }
 
   void add(const Region& region) {
     const std::vector<Point2>& corners = region.polygon_map;
-    const auto inside = [&](const Point2& p) {
-      bool odd = false;
-      for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
-        const Point2& a = corners[i];
-        const Point2& b = corners[j];
-        if ((a.y_m > p.y_m) == (b.y_m > p.y_m)) continue;
-        if (p.x_m < a.x_m + (p.y_m - a.y_m) / (b.y_m - a.y_m) * (b.x_m - a.x_m)) odd = !odd;
-      }
-      return odd;
-    };
-    MapBox box{corners[0].x_m, corners[0].y_m, corners[0].x_m, corners[0].y_m};
+    MapBox bounds{corners[0].x_m, corners[0].y_m, corners[0].x_m, corners[0].y_m};
     for (const Point2& p : corners)
-      box = {std::min(box.x0_m, p.x_m), std::min(box.y0_m, p.y_m), std::max(box.x1_m, p.x_m),
-             std::max(box.y1_m, p.y_m)};
-    const Point2 middle{(box.x0_m + box.x1_m) / 2, (box.y0_m + box.y1_m) / 2};
-    add_cone(cells_or_nearest(box, inside, middle), region.theta_rad, region.half_theta_rad);
+      bounds = {std::min(bounds.x0_m, p.x_m), std::min(bounds.y0_m, p.y_m), std::max(bounds.x1_m, p.x_m),
+                std::max(bounds.y1_m, p.y_m)};
+    PolygonRows polygon(corners, lattice_.T_map_grid.theta_rad);
+    const auto inside_row = [&](int row) {
+      const std::vector<double>& crossings = polygon.crossings(polygon.to_rows(center(0, row)).y_m);
+      return [this, &polygon, &crossings, row](int col) {
+        const double x_m = polygon.to_rows(center(col, row)).x_m;
+        return (crossings.end() - std::upper_bound(crossings.begin(), crossings.end(), x_m)) % 2 != 0;
+      };
+    };
+    const Point2 middle{bounds.x0_m / 2 + bounds.x1_m / 2, bounds.y0_m / 2 + bounds.y1_m / 2};
+    const CellRange box = cells_around(lattice_, bounds);
+    BlockMask mask = make_mask(united(box, nearest_cell(middle)));
+    insert_or_nearest(box, inside_row, middle, mask);
+    add_cone(std::move(mask), region.theta_rad, region.half_theta_rad);
   }
 
+  // One mask for all discs, of which there may be thousands.
   void add(const Beacons& beacons) {
-    BlockMask all;
+    std::vector<CellRange> boxes;
+    CellRange all;
     for (const Beacon& disc : beacons.discs) {
+      boxes.push_back(cells_around(lattice_, around(disc.p_map, disc.radius_m, disc.radius_m)));
+      all = united(all, united(boxes.back(), nearest_cell(disc.p_map)));
+    }
+    BlockMask mask = make_mask(all);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Beacon& disc = beacons.discs[i];
       const auto inside = [&](const Point2& p) {
         return std::hypot(p.x_m - disc.p_map.x_m, p.y_m - disc.p_map.y_m) <= disc.radius_m + slack;
       };
-      const MapBox box{disc.p_map.x_m - disc.radius_m, disc.p_map.y_m - disc.radius_m,
-                       disc.p_map.x_m + disc.radius_m, disc.p_map.y_m + disc.radius_m};
-      all = merged(all, cells_or_nearest(box, inside, disc.p_map));
+      insert_or_nearest(boxes[i], by_centers(inside), disc.p_map, mask);
     }
-    add_cone(std::move(all), 0.0, std::numbers::pi);
+    add_cone(std::move(mask), 0.0, std::numbers::pi);
   }
 
+  // One mask a heading, of whose poses there may be thousands.
   void add(const CandidatePoses& candidates) {
+    std::vector<LatticePose> poses;
     for (const Pose2& T_map_robot : candidates.T_map_robot) {
       const LatticePose pose = lattice_.nearest(T_map_robot);
       if (!lattice_.contains(pose)) continue;
       on_map_ = true;
-      if (!free_->contains(pose.col, pose.row)) continue;
-      BlockMask one = make_block_mask(pose.col, pose.row, pose.col, pose.row);
-      one.insert(pose.col, pose.row);
-      SharedMask& mask = out_.mask_of_heading[static_cast<std::size_t>(pose.heading)];
-      mask = std::make_shared<BlockMask>(mask == nullptr ? one : merged(*mask, one));
+      if (free_->contains(pose.col, pose.row)) poses.push_back(pose);
+    }
+    std::sort(poses.begin(), poses.end());
+    for (auto first = poses.begin(); first != poses.end();) {
+      const auto last = std::find_if(first, poses.end(),
+                                     [&](const LatticePose& pose) { return pose.heading != first->heading; });
+      CellRange box;
+      for (auto pose = first; pose != last; ++pose) box = united(box, one_cell(*pose));
+      BlockMask mask = make_mask(box);
+      for (auto pose = first; pose != last; ++pose) mask.insert(pose->col, pose->row);
+      out_.mask_of_heading[static_cast<std::size_t>(first->heading)] =
+          std::make_shared<const BlockMask>(std::move(mask));
+      first = last;
     }
   }
 
@@ -130,25 +162,18 @@ class SupportBuilder {
     out_.gaussian = GaussianDensity(lattice_, gaussian);
     const GaussianDensity& density = *out_.gaussian;
     const Pose2& mean = gaussian.T_map_robot;
-    const double reach_x_m = sigmas * density.sigma_x_m();
-    const double reach_y_m = sigmas * density.sigma_y_m();
-    const MapBox box{mean.x_m - reach_x_m, mean.y_m - reach_y_m, mean.x_m + reach_x_m, mean.y_m + reach_y_m};
-    bool any = false;
+    const CellRange box = cells_around(
+        lattice_, around({mean.x_m, mean.y_m}, sigmas * density.sigma_x_m(), sigmas * density.sigma_y_m()));
+    GaussianCells cells(density, lattice_, *free_, box, -0.5 * sigmas * sigmas - slack);
+    SharedMask last;
     for (const int heading : headings_in(mean.theta_rad, sigmas * density.sigma_theta_rad())) {
-      const double theta_rad = heading_map_rad(heading);
-      auto mask = std::make_shared<BlockMask>(cells(
-          box,
-          [&](const Point2& p) {
-            return density.log({p.x_m, p.y_m, theta_rad}) >= -0.5 * sigmas * sigmas - slack;
-          },
-          any));
-      visit_cells(*mask, [&](int col, int row) {
-        const Point2 p = center(col, row);
-        out_.normaliser += std::exp(density.log({p.x_m, p.y_m, theta_rad}));
-      });
-      out_.mask_of_heading[static_cast<std::size_t>(heading)] = std::move(mask);
+      auto mask = std::make_shared<BlockMask>(make_mask(box));
+      out_.normaliser += cells.insert(heading_map_rad(heading), *mask);
+      if (last == nullptr || last->words != mask->words) last = std::move(mask);
+      out_.mask_of_heading[static_cast<std::size_t>(heading)] = last;
     }
-    if (any) return;
+    on_map_ = on_map_ || cells.any();
+    if (cells.any()) return;
     add(CandidatePoses{{mean}});
     out_.gaussian.reset();
   }
@@ -162,45 +187,42 @@ class SupportBuilder {
   }
 
  private:
-  using InSupport = std::function<bool(const Point2&)>;
-
-  [[nodiscard]] Point2 center(int col, int row) const {
-    const double x_m = (col + 0.5) * lattice_.resolution_m;
-    const double y_m = (row + 0.5) * lattice_.resolution_m;
-    return {lattice_.T_map_grid.x_m + cos_grid_ * x_m - sin_grid_ * y_m,
-            lattice_.T_map_grid.y_m + sin_grid_ * x_m + cos_grid_ * y_m};
-  }
   [[nodiscard]] double heading_map_rad(int heading) const {
     return wrap_angle(lattice_.T_map_grid.theta_rad + lattice_.heading_grid_rad(heading));
   }
 
-  // Free cells of the support; `any` is set where it holds the centre of a cell, free or not.
-  BlockMask cells(const MapBox& box, const InSupport& inside, bool& any) {
-    const CellBox range = cells_around(lattice_, box);
-    if (range.col0 > range.col1 || range.row0 > range.row1) return {};
-    BlockMask mask = make_block_mask(range.col0, range.row0, range.col1, range.row1);
+  // The free cells of the box that are inside; true where the centre of any cell is, free or not.
+  template <class InsideRow>
+  bool insert_cells(const CellRange& box, const InsideRow& inside_row, BlockMask& mask) const {
     const int step = lattice_.step_cells;
-    const auto up = [step](int value) { return (value + step - 1) / step * step; };
-    for (int row = up(range.row0); row <= range.row1; row += step) {
-      for (int col = up(range.col0); col <= range.col1; col += step) {
-        if (!inside(center(col, row))) continue;
+    bool any = false;
+    for (int row = next_multiple(box.row0, step); row <= box.row1; row += step) {
+      const auto inside = inside_row(row);
+      for (int col = next_multiple(box.col0, step); col <= box.col1; col += step) {
+        if (!inside(col)) continue;
         any = true;
         if (free_->contains(col, row)) mask.insert(col, row);
       }
     }
-    on_map_ = on_map_ || any;
-    return mask;
+    return any;
   }
 
-  BlockMask cells_or_nearest(const MapBox& box, const InSupport& inside, const Point2& middle) {
-    bool any = false;
-    BlockMask mask = cells(box, inside, any);
-    const LatticePose pose = lattice_.nearest({middle.x_m, middle.y_m, 0.0});
-    if (any || !lattice_.contains(pose)) return mask;
-    on_map_ = true;
-    BlockMask one = make_block_mask(pose.col, pose.row, pose.col, pose.row);
-    if (free_->contains(pose.col, pose.row)) one.insert(pose.col, pose.row);
-    return one;
+  // A support too thin to hold the centre of a cell holds the nearest cell.
+  template <class InsideRow>
+  void insert_or_nearest(const CellRange& box, const InsideRow& inside_row, const Point2& middle,
+                         BlockMask& mask) {
+    const CellRange nearest = nearest_cell(middle);
+    const bool any = insert_cells(box, inside_row, mask);
+    on_map_ = on_map_ || any || !nearest.empty();
+    if (!any && !nearest.empty() && free_->contains(nearest.col0, nearest.row0))
+      mask.insert(nearest.col0, nearest.row0);
+  }
+
+  static CellRange one_cell(const LatticePose& pose) { return {pose.col, pose.row, pose.col, pose.row}; }
+  // Empty where a point is nearest to a cell outside of the grid.
+  [[nodiscard]] CellRange nearest_cell(const Point2& p_map) const {
+    const LatticePose pose = lattice_.nearest({p_map.x_m, p_map.y_m, 0.0});
+    return lattice_.contains(pose) ? one_cell(pose) : CellRange{};
   }
 
   // Lattice headings within a cone of the map frame, in order; a cone too thin to hold one holds the nearest.

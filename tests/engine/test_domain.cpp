@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "drawn_map.hpp"
 #include "engine/prepared_state.hpp"
+#include "engine/thread_time.hpp"
 #include "random_world.hpp"
 
 namespace landfall {
@@ -214,6 +217,122 @@ TEST(Domain, WindowsAndBeaconsEqualTheirDefinition) {
       ASSERT_EQ(in_disc.domain.contains(pose), free && std::hypot(dx_m, dy_m) <= disc.radius_m);
     });
   }
+}
+
+// Oracle: every pose against the covariance, inverted as it is.
+TEST(Domain, GaussiansEqualTheirDefinition) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    testing::Dice dice(seed, 11);
+    const GridMap grid = testing::random_map(dice, 3, 150);
+    const double m = grid.resolution_m * dice.one_of({0.5, 3.0, 20.0, 300.0});
+    Eigen::Matrix3d factor;
+    for (int i = 0; i < 9; ++i) factor(i / 3, i % 3) = dice.between(-1.0, 1.0);
+    const Eigen::Matrix3d scale = Eigen::Vector3d(m, m, dice.between(0.2, 3.0)).asDiagonal();
+    Eigen::Matrix3d covariance = scale * factor * factor.transpose() * scale;
+    Gaussian gaussian{.T_map_robot = testing::random_pose(dice, grid), .covariance = {}};
+    std::copy_n(covariance.data(), 9, gaussian.covariance.begin());
+    const Question question(grid, {gaussian}, 0.7, grid.resolution_m * dice.between(1, 3));
+    const double thin_m = grid.resolution_m * question.lattice.step_cells / 30.0;
+    const double thin_rad = question.lattice.heading_step_rad() / 30.0;
+    covariance.diagonal() += Eigen::Vector3d(thin_m, thin_m, thin_rad).cwiseAbs2();
+    std::int64_t poses = 0;
+    question.visit([&](const LatticePose& pose) {
+      const int step = question.lattice.step_cells;
+      if (pose.row % step != 0 || pose.col % step != 0) return;
+      const Pose2 T_map_robot = question.lattice.T_map_robot(pose);
+      const Eigen::Vector3d off(T_map_robot.x_m - gaussian.T_map_robot.x_m,
+                                T_map_robot.y_m - gaussian.T_map_robot.y_m,
+                                wrap_angle(T_map_robot.theta_rad - gaussian.T_map_robot.theta_rad));
+      const double sigmas = std::sqrt(off.dot(covariance.ldlt().solve(off)));
+      const bool free = grid.at({pose.col, pose.row}) == Occupancy::free;
+      if (sigmas < 3.0 - 1e-6) {
+        ASSERT_EQ(question.domain.contains(pose), free);
+      }
+      if (sigmas > 3.0 + 1e-6 && question.domain.components.size() == 1 &&
+          question.domain.components.front().gaussian) {
+        ASSERT_FALSE(question.domain.contains(pose));
+      }
+      poses += question.domain.contains(pose) ? 1 : 0;
+    });
+    EXPECT_EQ(poses, question.domain.poses);
+  }
+}
+
+// Oracle: a point against every edge.
+TEST(Domain, RegionsEqualTheirDefinition) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    testing::Dice dice(seed, 12);
+    const GridMap grid = testing::random_map(dice, 3, 60);
+    Region region;
+    for (int i = dice.between(3, 40); i > 0; --i) {
+      const Pose2 corner = testing::random_pose(dice, grid);
+      region.polygon_map.push_back({corner.x_m, corner.y_m});
+    }
+    const Question question(grid, {region}, 3.0);
+    std::int64_t inside_cells = 0;
+    const auto inside = [&](const Point2& p) {
+      bool odd = false;
+      for (std::size_t i = 0; i < region.polygon_map.size(); ++i) {
+        const Point2& a = region.polygon_map[i];
+        const Point2& b = region.polygon_map[(i + 1) % region.polygon_map.size()];
+        if ((a.y_m > p.y_m) == (b.y_m > p.y_m)) continue;
+        if (p.x_m < a.x_m + (p.y_m - a.y_m) / (b.y_m - a.y_m) * (b.x_m - a.x_m)) odd = !odd;
+      }
+      return odd;
+    };
+    question.visit([&](const LatticePose& pose) {
+      const bool in_polygon = inside(grid.center_of({pose.col, pose.row}));
+      inside_cells += in_polygon ? 1 : 0;
+      const bool free = grid.at({pose.col, pose.row}) == Occupancy::free;
+      if (in_polygon) {
+        ASSERT_EQ(question.domain.contains(pose), free);
+      }
+    });
+    if (inside_cells > 0) {
+      std::int64_t free_inside = 0;
+      question.visit([&](const LatticePose& pose) {
+        free_inside +=
+            inside(grid.center_of({pose.col, pose.row})) && grid.at({pose.col, pose.row}) == Occupancy::free
+                ? 1
+                : 0;
+      });
+      EXPECT_EQ(question.domain.poses, free_inside);
+    }
+  }
+}
+
+TEST(Domain, VariancesOfAnySizeAreTaken) {
+  const Question anywhere(room, {Anywhere{}});
+  const Question wide(room, {Gaussian{{2.5, 1.5, 0.0}, {1e300, 0, 0, 0, 1e300, 0, 0, 0, 1e300}}});
+  EXPECT_EQ(wide.domain.poses, anywhere.domain.poses);
+  // Wide along x, a row high.
+  const Question mixed(room, {Gaussian{{2.5, 2.5, 0.0}, {1e200, 0, 0, 0, 1e-200, 0, 0, 0, 1e-200}}});
+  EXPECT_EQ(mixed.cells(0), "1,2 2,2 3,2 4,2 ");
+  EXPECT_EQ(mixed.domain.poses, 4);
+}
+
+// What each costs must not be the product of corners, discs or poses with the cells of the map: minutes here.
+TEST(Domain, LargePriorsOnLargeMapsAreQuick) {
+  GridMap field{
+      .width_cells = 1500, .height_cells = 1500, .resolution_m = 0.1, .T_map_grid = {}, .cells = {}};
+  field.cells.assign(1500 * 1500, Occupancy::free);
+  Region region;
+  Beacons beacons;
+  CandidatePoses poses;
+  for (int i = 0; i < 20'000; ++i) {
+    const double angle_rad = 2.0 * pi * i / 20'000;
+    region.polygon_map.push_back({75.0 + 70.0 * std::cos(angle_rad), 75.0 + 70.0 * std::sin(angle_rad)});
+    beacons.discs.push_back({region.polygon_map.back(), 0.3});
+    poses.T_map_robot.push_back({region.polygon_map.back().x_m, region.polygon_map.back().y_m, 0.0});
+  }
+  const Gaussian gaussian{{75.0, 75.0, 0.0}, {900.0, 0, 0, 0, 900.0, 0, 0, 0, 9.0}};
+  const double before_ms = internal::thread_time_ms();
+  for (const PosePrior& prior :
+       {PosePrior{region}, PosePrior{beacons}, PosePrior{poses}, PosePrior{gaussian}})
+    EXPECT_GT(Question(field, prior, 0.05).domain.poses, 1000);
+  EXPECT_LT(internal::thread_time_ms() - before_ms, 10'000.0);
 }
 
 TEST(Domain, PriorSumsToOneOverItsPoses) {
