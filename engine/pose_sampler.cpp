@@ -93,7 +93,8 @@ double PoseSampler::half_extent_of(const Component& component) const {
   masks.erase(std::unique(masks.begin(), masks.end()), masks.end());
   for (const std::size_t mask : masks) box.add(*masks_[mask].mask);
   return 0.5 * lattice_.resolution_m *
-         (std::max(box.col1 - box.col0, box.row1 - box.row0) + lattice_.step_cells);
+         std::min(std::max(box.col1 - box.col0, box.row1 - box.row0) + lattice_.step_cells,
+                  std::max(lattice_.width_cells, lattice_.height_cells));
 }
 
 std::size_t PoseSampler::counted(const BlockMask& mask) {
@@ -109,8 +110,10 @@ std::size_t PoseSampler::counted(const BlockMask& mask) {
 }
 
 void PoseSampler::measure(const Domain& domain) {
-  const double step_m = lattice_.step_cells * lattice_.resolution_m;
-  volume_ = static_cast<double>(domain.poses) * step_m * step_m * lattice_.heading_step_rad();
+  // Of a step wider than the map only the map is searched.
+  const double step_x_m = std::min(lattice_.step_cells, lattice_.width_cells) * lattice_.resolution_m;
+  const double step_y_m = std::min(lattice_.step_cells, lattice_.height_cells) * lattice_.resolution_m;
+  volume_ = static_cast<double>(domain.poses) * step_x_m * step_y_m * lattice_.heading_step_rad();
   int col0 = lattice_.width_cells;
   int row0 = lattice_.height_cells;
   int col1 = -1;
@@ -142,8 +145,14 @@ LatticePose PoseSampler::lattice_pose(const Component& component, std::int64_t i
 }
 
 Pose2 PoseSampler::moved_within_step(const LatticePose& pose, CounterRng& rng) const {
-  const double col = pose.col + 0.5 + (rng.uniform() - 0.5) * lattice_.step_cells;
-  const double row = pose.row + 0.5 + (rng.uniform() - 0.5) * lattice_.step_cells;
+  // What falls off the map, as with steps wider than it, lands anywhere along it.
+  const auto drawn = [&](int cell, int cells) {
+    const double share = rng.uniform();
+    const double at = cell + 0.5 + (share - 0.5) * lattice_.step_cells;
+    return at >= 0.0 && at <= cells ? at : share * cells;
+  };
+  const double col = drawn(pose.col, lattice_.width_cells);
+  const double row = drawn(pose.row, lattice_.height_cells);
   const double turned_rad = (rng.uniform() - 0.5) * lattice_.heading_step_rad();
   return lattice_.T_map_grid * Pose2{col * lattice_.resolution_m, row * lattice_.resolution_m,
                                      lattice_.heading_grid_rad(pose.heading) + turned_rad};

@@ -1,6 +1,7 @@
 // The parts of the stochastic diffusion networks, on hand-made cells.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -333,6 +334,31 @@ TEST(PoseSampler, DrawsFromThePriorAlone) {
   }
   EXPECT_NEAR(in_window, 0.25 * draws, 5 * std::sqrt(draws * 0.25 * 0.75));
   EXPECT_NEAR(mean_x_m / (draws - in_window), 6.0, 0.03);
+}
+
+// Else what is searched would be as large as the step: networks that do not end.
+TEST(PoseSampler, StepsWiderThanTheMapStayOnIt) {
+  GridMap grid = testing::furnished_room();
+  grid.cells.front() = Occupancy::free;
+  const PreparedMap map(grid);
+  const internal::Lattice lattice = internal::make_lattice(grid, 10'000 * grid.resolution_m, 0.1);
+  const internal::Domain domain =
+      internal::make_domain({Anywhere{}}, lattice, map.state().free_mask(0.0, lattice.step_cells));
+  ASSERT_EQ(domain.poses, lattice.headings);
+  const internal::PoseSampler sampler(lattice, domain);
+  const double width_m = grid.width_cells * grid.resolution_m;
+  const double height_m = grid.height_cells * grid.resolution_m;
+  EXPECT_NEAR(sampler.volume(), width_m * height_m * 2.0 * std::numbers::pi, 1e-6 * sampler.volume());
+  bool far_side = false;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    CounterRng rng(5, i);
+    const Pose2 T_grid_robot = inverse(grid.T_map_grid) * sampler.draw(rng);
+    ASSERT_GE(std::min(T_grid_robot.x_m, T_grid_robot.y_m), -1e-9);
+    ASSERT_LE(T_grid_robot.x_m, width_m + 1e-9);
+    ASSERT_LE(T_grid_robot.y_m, height_m + 1e-9);
+    far_side = far_side || T_grid_robot.x_m > 0.9 * width_m;
+  }
+  EXPECT_TRUE(far_side);
 }
 
 }  // namespace
