@@ -17,6 +17,10 @@ std::vector<int> consistent(std::span<const SearchResult> results, std::span<con
                                                  " results and " + std::to_string(T_odom_robot.size()) +
                                                  " odometry poses, expected as many");
   internal::check_options("consistent", options);
+  for (std::size_t i = 0; i < T_odom_robot.size(); ++i)
+    if (!is_finite(T_odom_robot[i]))
+      throw Error(ErrorCode::invalid_argument,
+                  "consistent: odometry pose " + std::to_string(i) + " is not finite");
   std::vector<std::size_t> answered;
   for (std::size_t i = 0; i < results.size(); ++i)
     if (!results[i].hypotheses.empty()) answered.push_back(i);

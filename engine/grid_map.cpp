@@ -27,6 +27,13 @@ Point2 GridMap::center_of(CellIndex cell) const {
   return T_map_grid * Point2{(cell.col + 0.5) * resolution_m, (cell.row + 0.5) * resolution_m};
 }
 
+namespace {
+// Farther out the numbers of a pose are coarser than a thousandth of a cell.
+constexpr double farthest_origin_cells = 8e12;
+constexpr double finest_m = 1e-6;
+constexpr double coarsest_m = 1e6;
+}  // namespace
+
 void validate(const GridMap& map) {
   const auto fail = [](ErrorCode code, const std::string& message) {
     throw Error(code, "grid map: " + message);
@@ -43,10 +50,14 @@ void validate(const GridMap& map) {
   if (cells > max_map_cells)
     fail(ErrorCode::too_large, "size is " + std::to_string(cells) + " cells, at most " +
                                    std::to_string(max_map_cells) + " are taken");
-  if (!(map.resolution_m > 0.0) || !std::isfinite(map.resolution_m))
-    fail(ErrorCode::invalid_argument,
-         "resolution_m is " + number_text(map.resolution_m) + ", expected a positive number");
-  if (!is_finite(map.T_map_grid)) fail(ErrorCode::invalid_argument, "origin is not finite");
+  if (!(map.resolution_m >= finest_m && map.resolution_m <= coarsest_m))
+    fail(ErrorCode::invalid_argument, "resolution_m is " + number_text(map.resolution_m) + ", expected " +
+                                          number_text(finest_m) + " to " + number_text(coarsest_m));
+  const double farthest_m = farthest_origin_cells * map.resolution_m;
+  if (!is_finite(map.T_map_grid) ||
+      std::max(std::abs(map.T_map_grid.x_m), std::abs(map.T_map_grid.y_m)) > farthest_m)
+    fail(ErrorCode::invalid_argument, "origin is " + pose_text(map.T_map_grid) + ", expected within " +
+                                          number_text(farthest_m) + " m, where cells can be told apart");
   if (map.cells.size() != static_cast<std::size_t>(cells))
     fail(ErrorCode::invalid_argument,
          "holds " + std::to_string(map.cells.size()) + " cells, expected " + std::to_string(cells));

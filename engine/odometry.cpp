@@ -6,10 +6,12 @@
 namespace landfall::internal {
 
 void check_odometry_noise(const std::string& function, const OdometryNoise& noise) {
+  constexpr double most = 1000.0;  // beyond, odometry says nothing, and squares lose what scans say
   const auto check = [&](const char* field, double value) {
-    if (!(value >= 0.0) || !std::isfinite(value))
+    if (!(value >= 0.0 && value <= most))
       throw Error(ErrorCode::invalid_argument, function + ": odometry." + field + " is " +
-                                                   number_text(value) + ", expected a number >= 0");
+                                                   number_text(value) + ", expected 0 to " +
+                                                   number_text(most));
   };
   check("translation_m", noise.translation_m);
   check("translation_relative", noise.translation_relative);

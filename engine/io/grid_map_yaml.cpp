@@ -126,11 +126,17 @@ GridMap read_grid_map(std::string_view yaml, const std::string& file, const Read
   const std::string bytes = read_image(fields.image);
   const std::string image_file = beside(file, fields.image).string();
   const std::unique_ptr<ImageReader> image = open_image(bytes, image_file);
-  return {.width_cells = image->header().width,
-          .height_cells = image->header().height,
-          .resolution_m = fields.resolution_m,
-          .T_map_grid = fields.T_map_grid,
-          .cells = read_cells(*image, PixelTable(fields, image->header()))};
+  GridMap map{.width_cells = image->header().width,
+              .height_cells = image->header().height,
+              .resolution_m = fields.resolution_m,
+              .T_map_grid = fields.T_map_grid,
+              .cells = read_cells(*image, PixelTable(fields, image->header()))};
+  try {
+    validate(map);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::file_format, file + ": " + error.what());
+  }
+  return map;
 }
 
 }  // namespace io

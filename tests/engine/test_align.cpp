@@ -112,8 +112,11 @@ TEST_F(Align, RefusesWhatItCannotUse) {
   EXPECT_THROW(align(scans, scans.size()), Error);
   for (const double resolution_m : {0.0, -1.0, 2.0, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(align(scans, 0, {.odometry = {}, .resolution_m = resolution_m}), Error);
-  for (const double sigma : {-0.1, std::numeric_limits<double>::quiet_NaN()})
+  for (const double sigma : {-0.1, std::numeric_limits<double>::quiet_NaN(), 1e300})
     EXPECT_THROW(align(scans, 0, {.odometry = {.rotation_rad = sigma}}), Error);
+  for (const Pose2& pose :
+       align(scans, 0, {.odometry = {.rotation_rad = 1000.0, .rotation_relative = 1000.0}}))
+    EXPECT_TRUE(is_finite(pose));
   scans[3].T_odom_robot.reset();
   EXPECT_THROW(align(scans, 0), Error);
 }

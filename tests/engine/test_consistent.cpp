@@ -139,6 +139,12 @@ TEST(Consistent, RefusesWhatDoesNotFit) {
   for (const double probability : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(consistent({}, {}, {.odometry = {}, .jump_probability = probability}), Error);
   EXPECT_THROW(consistent({}, {}, {.odometry = {.rotation_rad = -0.1}}), Error);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<SearchResult> results{result_of({at({0.0, 0.0, 0.0}, 0.9)}),
+                                          result_of({at({1.0, 0.0, 0.0}, 0.9)})};
+  EXPECT_THROW(consistent(results, std::vector<Pose2>{{}, {nan, 0.0, 0.0}}), Error);
+  for (const double sigma : {-0.1, nan, 1e300})
+    EXPECT_THROW(consistent(results, std::vector<Pose2>(2), {.odometry = {.translation_m = sigma}}), Error);
 }
 
 }  // namespace

@@ -76,6 +76,13 @@ TEST(Lattice, RefusesStepsThatFitNoGrid) {
   for (const double step_rad : {0.0, -0.1, 1e-5, 6.3, std::nan("")})
     EXPECT_THROW(make_lattice(grid, 0.0, step_rad), Error) << step_rad;
   EXPECT_EQ(make_lattice(grid, 1.5, 0.1).step_cells, 3);
+  try {
+    make_lattice(grid, 0.0, 1e-9);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("rotation_step_rad is 1e-09"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

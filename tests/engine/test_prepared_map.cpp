@@ -62,6 +62,12 @@ TEST(PreparedMap, RefusesWhatCannotBePrepared) {
   GridMap no_resolution = testing::furnished_room();
   no_resolution.resolution_m = 0.0;
   EXPECT_THROW(PreparedMap{no_resolution}, Error);
+  // So far out that the numbers of a pose step over cells; map frames of whole countries are fine.
+  GridMap far = testing::furnished_room();
+  far.T_map_grid.x_m = 1e8;
+  EXPECT_NO_THROW(PreparedMap{far});
+  far.T_map_grid.x_m = 1e18;
+  EXPECT_THROW(PreparedMap{far}, Error);
   for (const double sigma_m :
        {0.0, -0.1, 1e6, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     try {

@@ -41,6 +41,7 @@ TEST_F(GridMapFaults, Origin) {
   expect_yaml_error(start + "origin: [0, 0]\n", {"floor.yaml:3: origin: found a list of 2", "3 numbers"});
   expect_yaml_error(start + "origin: [0, x, 0]\n", {"floor.yaml:3: origin[1]: found 'x'"});
   expect_yaml_error(start + "origin: 0\n", {"floor.yaml:3: origin: found 0"});
+  expect_yaml_error(start + "origin: [1e300, 0, 0]\n", {"floor.yaml", "origin", "1e+300"});
 }
 
 TEST_F(GridMapFaults, Image) {

@@ -48,8 +48,8 @@ struct GridMap {
 inline constexpr std::int64_t max_map_cells = std::int64_t{1} << 30;
 inline constexpr int max_map_side_cells = 65'000;
 
-// Throws Error{invalid_argument or too_large}: empty or oversized grid, a resolution that is not
-// positive and finite, an origin that is not finite, a number of cells other than width x height.
+// Throws Error{invalid_argument or too_large}: empty or oversized grid, cells other than width x height, a
+// resolution outside 1e-6 to 1e6, an origin that is not finite or beyond 8e12 cells, where numbers blur them.
 void validate(const GridMap& map);
 
 }  // namespace landfall
