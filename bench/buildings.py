@@ -67,15 +67,19 @@ def relocalize_all(
     log: Sequence[landfall.Scan], queries: Sequence[Query], question: Question
 ) -> tuple[Answers, Tally]:
     """`landfall relocalize` without files and progress; every result is kept."""
-    return relocalize(
+    answers, tally = Answers(), Tally()
+    relocalize(
         log,
         queries,
         question,
+        answers=answers,
+        tally=tally,
         results_file=ResultsFile(None),
         keep=lambda _: True,
         on_progress=lambda _: None,
         stop=CleanStop(),
     )
+    return answers, tally
 
 
 def first_hypotheses(answers: Answers) -> list[Estimate]:

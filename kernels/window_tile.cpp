@@ -183,7 +183,7 @@ std::uint64_t Flush(std::uint16_t* HWY_RESTRICT sums, std::int32_t* HWY_RESTRICT
 
 std::uint64_t BoundWindows(const WindowMaxima& maxima, int first_col, int first_row, const TilePoints& points,
                            std::int32_t threshold, std::uint64_t blocks, std::int32_t* bounds) {
-  constexpr std::size_t points_per_look = 32;
+  constexpr std::size_t points_per_look = 64;
   if (blocks == 0) return 0;
   const int first = std::countr_zero(blocks) / tile_cols;
   const int count_rows = (63 - std::countl_zero(blocks)) / tile_cols - first + 1;

@@ -70,7 +70,7 @@ TilePoints tile_points(const WindowMaxima& maxima, const std::int32_t* col, cons
 // bounds[row * tile_cols + col]: the sum over all points of the windows' levels, for the block that begins at
 // cell (first_col + 8 * col, first_row + 8 * row), where first_col and first_row are multiples of 8. `blocks`
 // has a bit, row * tile_cols + col, for each that is asked for. Returns the bits of those whose bound reaches
-// `threshold`; of the others bounds are undefined. It looks after every 32 points whether any still can.
+// `threshold`; of the others bounds are undefined. It looks after every 64 points whether any still can.
 std::uint64_t bound_windows(const WindowMaxima& maxima, int first_col, int first_row,
                             const TilePoints& points, std::int32_t threshold, std::uint64_t blocks,
                             std::int32_t* bounds);

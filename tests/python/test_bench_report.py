@@ -294,3 +294,13 @@ def test_executors_side_by_side(module):
         ["tbb", "intel", "3.0", "6.0", "300.0"],
         ["openmp", "intel", "4.5", "9.0", "200.0"],
     ]
+
+
+def test_the_report_asks_as_the_command_does(module, prepared, scans):
+    """Every query is answered, and every result kept."""
+    buildings = module("buildings")
+    question = buildings.Question([prepared], landfall.Anywhere(), landfall.SearchOptions())
+    queries = buildings.single_queries(len(scans), 1)
+    answers, tally = buildings.relocalize_all(scans, queries, question)
+    assert len(tally.verdicts) == len(answers.kept) == len(scans)
+    assert [best.stamp_s for best in buildings.first_hypotheses(answers)] == [s.stamp_s for s in scans]
