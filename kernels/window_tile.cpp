@@ -139,14 +139,24 @@ HWY_INLINE void AddLevels(const LevelRows& rows, const std::int32_t* HWY_RESTRIC
                           std::uint16_t* HWY_RESTRICT sums) {
   const hn::CappedTag<std::uint16_t, sums_a_row> d;
   const hn::Rebind<std::uint8_t, decltype(d)> d_byte;
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t row = 0; row < Count; ++row) {
-      const std::uint8_t* first = rows.level + offset[i] + static_cast<std::ptrdiff_t>(row) * rows.stride;
+  const auto add_all = [&](const auto& levels_at) HWY_ATTR {
+    for (std::size_t row = 0; row < Count; ++row)
       for (std::size_t lane = 0; lane < sums_a_row; lane += hn::Lanes(d)) {
+        const auto at = static_cast<std::ptrdiff_t>(row) * rows.stride + static_cast<std::ptrdiff_t>(lane);
         std::uint16_t* sum = sums + row * sums_a_row + lane;
-        hn::Store(hn::Add(hn::Load(d, sum), hn::PromoteTo(d, hn::LoadU(d_byte, first + lane))), d, sum);
+        hn::Store(hn::Add(hn::Load(d, sum), hn::PromoteTo(d, levels_at(at))), d, sum);
       }
-    }
+  };
+  std::size_t i = 0;
+  for (; i + 2 <= count; i += 2) {
+    const std::uint8_t* a = rows.level + offset[i];
+    const std::uint8_t* b = rows.level + offset[i + 1];
+    add_all([&](std::ptrdiff_t at)
+                HWY_ATTR { return hn::Add(hn::LoadU(d_byte, a + at), hn::LoadU(d_byte, b + at)); });
+  }
+  if (i == count) return;
+  const std::uint8_t* a = rows.level + offset[i];
+  add_all([&](std::ptrdiff_t at) HWY_ATTR { return hn::LoadU(d_byte, a + at); });
 }
 #endif
 
