@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <unordered_map>
 
 namespace landfall::internal {
 namespace {
@@ -23,30 +25,31 @@ double distance_m(const Point2& a, const Point2& b) {
 class Places {
  public:
   double take_m(const Point2& a, const Point2& b, double length_m) {
-    const auto square = [](double a_m, double b_m) {
-      return static_cast<long>(std::floor(0.5 * (a_m + b_m) / place_m));
-    };
-    double& taken_m = taken_at(square(a.x_m, b.x_m), square(a.y_m, b.y_m));
+    double& taken_m = taken_at(square_of(a.x_m, b.x_m), square_of(a.y_m, b.y_m));
     const double left_m = std::min(length_m, place_m - taken_m);
     taken_m += left_m;
     return left_m;
   }
 
  private:
-  struct Place {
-    long x, y;
-    double taken_m;
-  };
-
-  // From the newest: the next piece mostly lies where the last one did.
-  double& taken_at(long x, long y) {
-    const auto found = std::find_if(places_.rbegin(), places_.rend(),
-                                    [&](const Place& place) { return place.x == x && place.y == y; });
-    return found != places_.rend() ? found->taken_m
-                                   : places_.emplace_back(Place{.x = x, .y = y, .taken_m = 0.0}).taken_m;
+  // Far out all share the last one.
+  static std::int32_t square_of(double a_m, double b_m) {
+    constexpr double most = 1 << 30;
+    return static_cast<std::int32_t>(std::floor(std::clamp(0.5 * (a_m + b_m) / place_m, -most, most)));
   }
 
-  std::vector<Place> places_;
+  // The next piece mostly lies where the last one did.
+  double& taken_at(std::int32_t x, std::int32_t y) {
+    const auto key =
+        static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 | static_cast<std::uint32_t>(y);
+    if (last_ == nullptr || key != last_key_) last_ = &taken_m_[key];
+    last_key_ = key;
+    return *last_;
+  }
+
+  std::unordered_map<std::uint64_t, double> taken_m_;
+  std::uint64_t last_key_ = 0;
+  double* last_ = nullptr;
 };
 
 ContourPiece stretch(std::span<const EchoRay> echoes, std::size_t first, std::size_t last) {

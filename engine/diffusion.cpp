@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "engine/methods/sdn/find_modes_by_diffusion.hpp"
+#include "engine/number_text.hpp"
+#include "engine/off_map.hpp"
 #include "engine/options.hpp"
 #include "landfall/error.hpp"
 
@@ -25,9 +28,9 @@ void validate(const DiffusionOptions& options) {
   require(options.cells >= 0 && options.cells <= most_cells,
           "cells is " + std::to_string(options.cells) + ", expected 0 to " + std::to_string(most_cells));
   require(std::isfinite(options.top_half_m) && options.top_half_m >= 0.0,
-          "top_half_m is " + std::to_string(options.top_half_m) + ", expected 0 or more");
+          "top_half_m is " + number_text(options.top_half_m) + ", expected 0 or more");
   require(std::isfinite(options.top_half_rad) && options.top_half_rad >= 0.0,
-          "top_half_rad is " + std::to_string(options.top_half_rad) + ", expected 0 or more");
+          "top_half_rad is " + number_text(options.top_half_rad) + ", expected 0 or more");
   require((options.top_half_m > 0.0) == (options.top_half_rad > 0.0),
           "top_half_m and top_half_rad: expected both or neither");
   require(
@@ -111,7 +114,8 @@ DiffusionRun run_diffusion(const PreparedMap& map, const PosePrior& prior, const
   (void)map.state().scene();
   const Lattice lattice = make_lattice(map.grid(), 0.0, search_options.rotation_step_rad);
   const Domain domain = make_domain(prior, lattice, map.state().free_mask(0.0, 1));
-  if (!domain.on_map) throw Error(ErrorCode::invalid_argument, "prior lies entirely off the map");
+  if (!domain.on_map)
+    throw Error(ErrorCode::invalid_argument, off_map_text(std::span(&prior, 1), 0, std::span(&map, 1)));
   DiffusionRun run;
   if (domain.poses == 0 || count_valid(scan) == 0) return run;
   const Clock::time_point start = Clock::now();

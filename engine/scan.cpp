@@ -134,15 +134,19 @@ Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, s
           .parts = may_be_off && scans.size() > 1 ? std::optional(std::move(parts)) : std::nullopt};
 }
 
-Scan merge(std::span<const Scan> scans) {
-  if (scans.empty()) fail("merge: no scans, expected at least one");
+std::vector<Pose2> odometry_of(std::span<const Scan> scans) {
   std::vector<Pose2> T_odom_robot;
+  T_odom_robot.reserve(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!scans[i].T_odom_robot)
-      fail("merge: scan " + std::to_string(i) + " has no T_odom_robot, expected odometry in every scan");
+      fail("scan " + std::to_string(i) + " has no T_odom_robot, expected odometry in every scan");
     T_odom_robot.push_back(*scans[i].T_odom_robot);
   }
-  return merge(scans, T_odom_robot, scans.size() - 1);
+  return T_odom_robot;
+}
+
+Scan merge(std::span<const Scan> scans) {
+  return merge(scans, odometry_of(scans), scans.size() - 1);
 }
 
 }  // namespace landfall

@@ -179,9 +179,9 @@ bool deserves_second_look(const Query& query, const Method& method, const Modes&
   });
 }
 
-// Why there is nothing to go by; empty where there is.
 constexpr const char* stopped = "stopped before any pose was scored";
 
+// Why there is nothing to go by; empty where there is.
 std::string nothing_to_go_by(const SearchResult& result) {
   if (result.beams_valid == 0) return "no valid beam";
   if (result.beams_echo == 0) return "no beam has an echo";

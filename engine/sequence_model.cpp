@@ -59,12 +59,6 @@ void check_options(const std::string& function, const ConsistentOptions& options
                                                  ", expected more than 0 and at most 1");
 }
 
-std::vector<Pose2> odometry_of(std::span<const Scan> scans) {
-  std::vector<Pose2> T_odom_robot;
-  for (const Scan& scan : scans) T_odom_robot.push_back(*scan.T_odom_robot);
-  return T_odom_robot;
-}
-
 SequenceModel::SequenceModel(std::span<const SearchResult> results, std::span<const Pose2> T_odom_robot,
                              const ConsistentOptions& options)
     : noise_(options.odometry) {

@@ -50,7 +50,4 @@ void check_sequence(const std::string& function, std::span<const PreparedMap> ma
 // The same for options out of range.
 void check_options(const std::string& function, const ConsistentOptions& options);
 
-// T_odom_robot of each scan; every one has it.
-std::vector<Pose2> odometry_of(std::span<const Scan> scans);
-
 }  // namespace landfall::internal

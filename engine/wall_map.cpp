@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {
@@ -16,7 +17,7 @@ void validate(const WallMap& map) {
     for (const double value : {a_map.x_m, a_map.y_m, b_map.x_m, b_map.y_m})
       if (!std::isfinite(value))
         throw Error(ErrorCode::invalid_argument, "wall map: wall " + std::to_string(i) +
-                                                     " has the coordinate " + std::to_string(value) +
+                                                     " has the coordinate " + number_text(value) +
                                                      ", expected finite numbers");
   }
 }

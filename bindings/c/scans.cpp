@@ -30,15 +30,6 @@ Window window_of(const landfall_scans* list, std::size_t first, std::size_t coun
   return {scans.subspan(first, count), reference - first};
 }
 
-std::vector<landfall::Pose2> odometry_of(std::span<const landfall::Scan> scans) {
-  std::vector<landfall::Pose2> T_odom_robot;
-  for (const landfall::Scan& scan : scans) {
-    if (!scan.T_odom_robot) landfall::c::refuse("T_common_robot is NULL and a scan has no odometry");
-    T_odom_robot.push_back(*scan.T_odom_robot);
-  }
-  return T_odom_robot;
-}
-
 }  // namespace
 
 landfall_status landfall_scans_new(landfall_scans** scans) {
@@ -111,7 +102,7 @@ landfall_status landfall_scans_merge(const landfall_scans* scans, size_t first, 
   return guarded(__func__, [&] {
     auto& list = required(merged, "merged").scans;
     const Window window = window_of(scans, first, count, reference);
-    const auto poses = T_common_robot == nullptr ? odometry_of(window.scans)
+    const auto poses = T_common_robot == nullptr ? landfall::odometry_of(window.scans)
                                                  : from_c(array(T_common_robot, count, "T_common_robot"));
     list.push_back(landfall::merge(window.scans, poses, window.reference));
   });

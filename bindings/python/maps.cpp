@@ -9,6 +9,7 @@
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 #include "landfall/grid_map.hpp"
 #include "landfall/prepared_map.hpp"
@@ -21,13 +22,6 @@ using namespace nb::literals;
 namespace {
 
 static_assert(sizeof(Occupancy) == 1 && sizeof(Wall) == 4 * sizeof(double));
-
-std::string number_text(double value) {
-  return nb::cast<std::string>(nb::str(nb::float_(value)));
-}
-std::string number_text(std::uint8_t value) {
-  return std::to_string(value);
-}
 
 template <class T>
 GridMap make_grid(const ArrayLike<T>& cells, double resolution_m, const Pose2& T_map_grid) {
@@ -47,7 +41,7 @@ GridMap make_grid(const ArrayLike<T>& cells, double resolution_m, const Pose2& T
     if (value != T{0} && value != T{1} && value != T{2}) {
       throw Error(ErrorCode::invalid_argument, "GridMap: cell (row " + std::to_string(i / shape[1]) +
                                                    ", column " + std::to_string(i % shape[1]) + ") is " +
-                                                   number_text(value) +
+                                                   number_text(static_cast<double>(value)) +
                                                    ", expected 0 (free), 1 (occupied) or 2 (unknown)");
     }
     map.cells.push_back(static_cast<Occupancy>(value));
@@ -143,7 +137,7 @@ void bind_grid_map(nb::module_& module) {
           "x_m"_a, "y_m"_a, "(row, column) of the cell that holds a point of the map frame.")
       .def("__repr__", [](const GridMap& map) {
         return "GridMap(" + std::to_string(map.width_cells) + " x " + std::to_string(map.height_cells) +
-               " cells, resolution_m=" + nb::cast<std::string>(nb::str(nb::float_(map.resolution_m))) + ")";
+               " cells, resolution_m=" + number_text(map.resolution_m) + ")";
       });
 }
 

@@ -136,17 +136,6 @@ void bind_sensor(nb::module_& module) {
       "An evenly spaced fan: beam i points to first_rad + i * step_rad in the mount's frame.");
 }
 
-std::vector<Pose2> odometry_of(const std::vector<Scan>& scans) {
-  std::vector<Pose2> T_odom_robot;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (!scans[i].T_odom_robot)
-      throw Error(ErrorCode::invalid_argument, "merge: scan " + std::to_string(i) +
-                                                   " has no T_odom_robot, expected odometry in every scan");
-    T_odom_robot.push_back(*scans[i].T_odom_robot);
-  }
-  return T_odom_robot;
-}
-
 void bind_scan(nb::module_& module) {
   nb::class_<Scan>(module, "Scan", "What a sensor saw at one time: one range per beam.")
       .def("__init__", &init_scan, "sensor"_a, "ranges_m"_a, "stamp_s"_a = 0.0, "T_odom_robot"_a = nb::none(),

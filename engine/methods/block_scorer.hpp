@@ -39,7 +39,7 @@ class BlockScorer {
   explicit BlockScorer(SharedSearch& search) : search_(search) {}
 
   // A node's blocks at every heading of [first, last) but one.
-  void visit(const Node& node, int first_heading, int last_heading, int but = -1);
+  void visit(const Node& node, int first_heading, int last_heading, int but);
   // A node's blocks at one heading, bounded. Of those that may reach the score that matters the most
   // promising are scored, the others wait in `pending`.
   void bound(const Node& node, int heading);

@@ -134,8 +134,9 @@ class BranchAndBound {
     early_candidates_.insert(early_candidates_.end(), scorer.candidates.begin(), scorer.candidates.end());
   }
 
-  void visit(BlockScorer& scorer, const Node& node) const {
-    scorer.visit(node, groups_.first(node.group), groups_.last(node.group));
+  // At every heading of its group but one.
+  void visit(BlockScorer& scorer, const Node& node, int but = -1) const {
+    scorer.visit(node, groups_.first(node.group), groups_.last(node.group), but);
   }
 
   // Nodes come best first: once one is excluded, so is the rest.
@@ -193,8 +194,7 @@ class BranchAndBound {
     const bool middle_first = nodes_.size() > few_nodes;
     if (middle_first) score_middle_headings(scorers);
     for_each_node(scorers, [&](BlockScorer& scorer, const Node& node) {
-      scorer.visit(node, groups_.first(node.group), groups_.last(node.group),
-                   middle_first ? middle(node.group) : -1);
+      visit(scorer, node, middle_first ? middle(node.group) : -1);
     });
     for (const auto& scorer : scorers) {
       proposal_.candidates.insert(proposal_.candidates.end(), scorer->candidates.begin(),

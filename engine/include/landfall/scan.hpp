@@ -59,7 +59,9 @@ void validate(const Scan& scan);
 // that is negative or not finite.
 Scan merge(std::span<const Scan> scans, std::span<const Pose2> T_common_robot, std::size_t reference,
            const RelativePoseNoise& noise = {});
-// The same from the scans' own odometry, seen from the last scan. Throws where one has none.
+// Where odometry had the robot at each scan. Throws Error{invalid_argument} where one has none.
+std::vector<Pose2> odometry_of(std::span<const Scan> scans);
+// merge() from the scans' own odometry, seen from the last scan.
 Scan merge(std::span<const Scan> scans);
 
 }  // namespace landfall
