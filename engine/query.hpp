@@ -10,6 +10,7 @@
 #include "engine/domain.hpp"
 #include "engine/end_points.hpp"
 #include "engine/evidence.hpp"
+#include "engine/guess.hpp"
 #include "engine/lattice.hpp"
 #include "engine/prepared_state.hpp"
 #include "landfall/search.hpp"
@@ -31,6 +32,7 @@ struct Query {
   RivalMargin margin{};
   int threads = 1;
   std::optional<Clock::time_point> deadline;
+  std::optional<Guess> guess{};  // on this map
 
   [[nodiscard]] bool out_of_time() const {
     return options.stop.stop_requested() || (deadline && Clock::now() >= *deadline);

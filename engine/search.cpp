@@ -190,7 +190,8 @@ std::string nothing_to_go_by(const SearchResult& result) {
 }
 
 SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t index, const Scan& scan,
-                         const SearchOptions& options, const Method& method, int threads) {
+                         const std::optional<Guess>& guess, const SearchOptions& options,
+                         const Method& method, int threads) {
   SearchResult result;
   const StageTimer timer(result.times.total_ms);
   const Clock::time_point start = Clock::now();
@@ -215,6 +216,7 @@ SearchResult search_scan(const std::vector<PreparedQuestion>& maps, std::size_t 
                 .margin = scan.measured ? second_margin(points.size()) : rival_margin(points.size()),
                 .threads = threads,
                 .deadline = deadline_of(start, options.time_budget_s)};
+    if (guess && guess->map_index == static_cast<int>(m)) query.guess = guess;
     Modes modes = examine(query, method, result);
     if (deserves_second_look(query, method, modes)) {
       query.margin = second_margin(points.size());
@@ -285,8 +287,10 @@ std::vector<SearchResult> search(std::span<const PreparedMap> maps, std::span<co
   std::vector<SearchResult> results(scans.size());
   // Many scans run side by side, each in one thread; a single one gets all of them.
   const bool side_by_side = scans.size() > 1;
+  Answers answers(scans, results);
   parallel_for(scans.size(), side_by_side ? options.threads : 1, [&](std::size_t i) {
-    results[i] = search_scan(questions, i, scans[i], options, method, side_by_side ? 1 : options.threads);
+    answers.give(i, search_scan(questions, i, scans[i], answers.guess(i), options, method,
+                                side_by_side ? 1 : options.threads));
   });
   if (!results.empty()) {
     results.front().times.prepare_ms = prepare_ms;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "engine/methods/block_scorer.hpp"
@@ -87,6 +88,35 @@ class BranchAndBound {
     return all_alike ? query_.map.tiles_of(masks.front()) : nullptr;
   }
 
+  // Of the blocks beside a pose the best one at every heading that odometry may have meant.
+  void look_around(const Pose2& T_map_robot) {
+    constexpr double most_off_rad = std::numbers::pi / 12.0;
+    const Lattice& lattice = query_.lattice;
+    const LatticePose center = lattice.nearest(T_map_robot);
+    if (!lattice.contains(center)) return;
+    Node beside{.row = static_cast<std::uint16_t>(std::max(0, center.row / kernels::block_cells - 1)),
+                .col = static_cast<std::uint16_t>(std::max(0, center.col / kernels::block_cells - 1))};
+    for (int row = 0; row < 3; ++row)
+      for (int col = 0; col < 3; ++col) beside.lanes |= std::uint64_t{1} << kernels::tile_lane(col, row);
+    const int most_off =
+        std::min((lattice.headings - 1) / 2, static_cast<int>(most_off_rad / lattice.heading_step_rad()));
+    BlockScorer scorer(search_);
+    for (int off = 0; off <= most_off; ++off) {
+      scorer.dive(beside, (center.heading + off) % lattice.headings);
+      if (off > 0) scorer.dive(beside, (center.heading + lattice.headings - off) % lattice.headings);
+    }
+    take_early(scorer);
+  }
+
+  // Whether a guess was worth about what it promised.
+  bool try_guess() {
+    constexpr double least_share = 0.8;
+    if (!query_.guess) return false;
+    look_around(query_.guess->T_map_robot);
+    const double promised = query_.guess->score_per_echo * static_cast<double>(query_.points.size());
+    return search_.best.get() >= least_share * promised;
+  }
+
   void bound_and_collect() {
     constexpr double promising_share = 0.015;  // of the coarse tiles: the best pose is mostly in one of them
     constexpr std::size_t dives = 24;
@@ -101,11 +131,13 @@ class BranchAndBound {
                            .layout = tiles->large};
     CoarseBounds coarse(large);
     FineBounds fine(small, coarse, tiles->parts);
+    const bool has_incumbent = try_guess();
     for (int first = 0; first < large.groups.count() && !query_.out_of_time();
          first += coarse.groups_at_a_time()) {
       const int last = std::min(large.groups.count(), first + coarse.groups_at_a_time());
-      proposal_.counts.bounds_computed += coarse.compute(first, last);
-      find_incumbent(fine.best_of_tiles(first, last, coarse.best(promising_share), dives));
+      proposal_.counts.bounds_computed += coarse.compute(first, last, table_units(search_.lowest()));
+      if (!has_incumbent)
+        find_incumbent(fine.best_of_tiles(first, last, coarse.best(promising_share), dives));
       const std::vector<Node> survivors = fine.survivors(first, last, search_.lowest());
       nodes_.insert(nodes_.end(), survivors.begin(), survivors.end());
     }

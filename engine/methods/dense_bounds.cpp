@@ -43,8 +43,9 @@ int CoarseBounds::groups_at_a_time() const {
       std::max<std::size_t>(1, most_bounds / (std::max<std::size_t>(1, level_.layout.size()) * tile_blocks)));
 }
 
-std::int64_t CoarseBounds::compute(int first, int last) {
+std::int64_t CoarseBounds::compute(int first, int last, std::int64_t bound) {
   first_ = first;
+  least_bound_ = bound;
   const auto count = static_cast<std::size_t>(last - first);
   const TileLayout& layout = level_.layout;
   bounds_.resize(count * layout.size() * tile_blocks);
@@ -62,11 +63,12 @@ std::int64_t CoarseBounds::compute(int first, int last) {
     points.build(level_.query.points, level_.query.lattice, level_.table, level_.groups.first(group),
                  level_.groups.last(group));
     unbounded_[g] = points.unbounded();
+    const int least = BoundLevel::least_sum(bound, points.unbounded());
     std::int32_t* scratch = scratch_of_thread(level_.query);
     for (const TileLayout::Run& run : layout.runs) {
       const std::size_t at = g * layout.size() + run.first;
       const TileLayout::Tile& tile = layout.tiles[run.first];
-      kernels::bound_tiles(level_.table.planes(), points.view(), tile.col, tile.row, run.tiles, 0,
+      kernels::bound_tiles(level_.table.planes(), points.view(), tile.col, tile.row, run.tiles, least,
                            layout.allowed.data() + run.first, scratch, bounds_.data() + at * tile_blocks,
                            largest_.data() + at);
     }
@@ -84,7 +86,7 @@ CoarseChoice CoarseBounds::best(double share_of_tiles) const {
   const auto wanted = static_cast<std::size_t>(share_of_tiles * static_cast<double>(bounds.size() - 1));
   std::nth_element(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(wanted), bounds.end(),
                    std::greater<>());
-  const std::int64_t bound = bounds[wanted];
+  const std::int64_t bound = std::max(bounds[wanted], least_bound_);
   const auto last_better =
       std::partition(bounds.begin(), bounds.end(), [&](std::int64_t b) { return b > bound; });
   const auto equal = static_cast<std::size_t>(std::count(last_better, bounds.end(), bound));

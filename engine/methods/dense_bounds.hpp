@@ -49,8 +49,8 @@ class CoarseBounds {
 
   // So many groups fit into memory at a time; at least 1.
   [[nodiscard]] int groups_at_a_time() const;
-  // Of groups [first, last). Bounds computed.
-  std::int64_t compute(int first, int last);
+  // Of groups [first, last); what lies below `bound` may be given up. Bounds computed.
+  std::int64_t compute(int first, int last, std::int64_t bound);
   // So large a share of the tiles, the best ones.
   [[nodiscard]] CoarseChoice best(double share_of_tiles) const;
   // Adds the parts of every chosen block of a group to needed[fine tile]. True: any.
@@ -60,6 +60,7 @@ class CoarseBounds {
  private:
   const BoundLevel& level_;
   int first_ = 0;
+  std::int64_t least_bound_ = 0;         // bounds below it are not known
   std::vector<std::uint16_t> bounds_;    // [group - first][tile][lane]
   std::vector<std::uint16_t> largest_;   // [group - first][tile]
   std::vector<std::int32_t> unbounded_;  // [group - first]

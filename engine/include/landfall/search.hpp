@@ -56,6 +56,8 @@ struct StageTimes {
   double total_ms = 0.0;
 };
 
+// How much was done for an answer. Bounds and scored poses vary with threads and with what a batch happened
+// to answer before.
 struct SearchCounts {
   std::int64_t poses_covered = 0;  // lattice poses of the prior, after the free-space mask
   std::int64_t poses_scored = 0;   // of these, scored one by one; the rest were excluded by bounds
@@ -78,9 +80,10 @@ struct SearchResult {
 };
 
 // results[i] answers scans[i]; each scan is its own question under the same prior. A batch is answered
-// in parallel and equals the loop over its scans. Safe from any thread.
-// Throws Error{invalid_argument, unknown_name}: an option, prior or scan that does not validate, a
-// prior entirely off the map. A scan without a valid beam is an answer (lost), not an error.
+// in parallel and equals the loop over its scans, but is faster where they follow each other with odometry:
+// one's answer tells where to look for the next first. Safe from any thread. Throws Error{invalid_argument,
+// unknown_name}: an option, prior or scan that does not validate, a prior entirely off the map. A scan
+// without a valid beam is an answer (lost), not an error.
 std::vector<SearchResult> search(const PreparedMap& map, const PosePrior& prior, std::span<const Scan> scans,
                                  const SearchOptions& options = {});
 // One prior per scan.
