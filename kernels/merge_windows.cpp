@@ -50,7 +50,8 @@ std::size_t FindRuns(const std::int32_t* HWY_RESTRICT col, const std::int32_t* H
 
 MergedCount MergeWindows(const std::int32_t* col_half, const std::int32_t* row_half,
                          const std::int32_t* size_halves, std::size_t points, const WindowShelf& shelf,
-                         std::int32_t* run_begin, const MergedWindows& merged) {
+                         std::int32_t* run_begin, const WindowLists& lists) {
+  begin_lists(points, lists);
   if (points == 0) return {};
   const Tag d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
@@ -65,7 +66,6 @@ MergedCount MergeWindows(const std::int32_t* col_half, const std::int32_t* row_h
   auto least_row = least_col;
   auto most_col = hn::Set(d, std::numeric_limits<std::int32_t>::min());
   auto most_row = most_col;
-  MergedCount count;
   for (std::int32_t run = 0; run < runs; run += lanes) {
     // What lies behind the last run is read, and left out.
     const auto is_run = hn::Lt(hn::Iota(d, run), all_runs);
@@ -74,12 +74,11 @@ MergedCount MergeWindows(const std::int32_t* col_half, const std::int32_t* row_h
     const auto size = hn::IfThenElseZero(is_run, hn::GatherIndex(d, size_halves, begin));
     const auto col_of = hn::GatherIndex(d, col_half, begin);
     const auto row_of = hn::GatherIndex(d, row_half, begin);
-    const auto plane = hn::GatherIndex(d, shelf.plane_of_size, hn::Min(size, last_size));
+    const auto plane_of = hn::GatherIndex(d, shelf.plane_of_size, hn::Min(size, last_size));
     const auto on_map = hn::Gt(size, zero);
-    const auto too_wide = hn::And(on_map, hn::Lt(plane, zero));
+    const auto too_wide = hn::And(on_map, hn::Lt(plane_of, zero));
     const auto kept = hn::AndNot(too_wide, on_map);
     unbounded = hn::Add(unbounded, hn::IfThenElseZero(too_wide, weight));
-    weights = hn::Or(weights, hn::IfThenElseZero(kept, weight));
     const auto col = hn::Add(hn::ShiftRight<1>(col_of), hn::Set(d, shelf.pad_cols));
     const auto row = hn::Add(hn::ShiftRight<1>(row_of), hn::Set(d, shelf.pad_rows));
     least_col = hn::IfThenElse(kept, hn::Min(least_col, col), least_col);
@@ -87,48 +86,31 @@ MergedCount MergeWindows(const std::int32_t* col_half, const std::int32_t* row_h
     most_col = hn::IfThenElse(kept, hn::Max(most_col, col), most_col);
     most_row = hn::IfThenElse(kept, hn::Max(most_row, row), most_row);
     const auto phase = hn::Add(hn::ShiftLeft<1>(hn::And(row_of, one)), hn::And(col_of, one));
-    Append(hn::Add(plane, hn::Mul(phase, hn::Set(d, shelf.plane_size))), kept, merged.plane + count.windows);
-    Append(col, kept, merged.col + count.windows);
-    Append(row, kept, merged.row + count.windows);
-    Append(weight, kept, merged.weight + count.windows);
-    count.windows += hn::CountTrue(d, kept);
+    const auto plane = hn::Add(plane_of, hn::Mul(phase, hn::Set(d, shelf.plane_size)));
+    const auto first = hn::Add(hn::Add(plane, col), hn::Mul(row, hn::Set(d, shelf.stride)));
+    auto bits = hn::IfThenElseZero(kept, weight);
+    weights = hn::Or(weights, bits);
+    for (int bit = 0; !hn::AllTrue(d, hn::Eq(bits, zero)); ++bit, bits = hn::ShiftRight<1>(bits)) {
+      const auto listed = hn::Ne(hn::And(bits, one), zero);
+      const std::int32_t at = lists.end[bit];
+      Append(plane, listed, lists.plane + at);
+      Append(col, listed, lists.col + at);
+      Append(row, listed, lists.row + at);
+      Append(hn::ShiftLeft<2>(first), listed, lists.first_byte + at);
+      lists.end[bit] = at + static_cast<std::int32_t>(hn::CountTrue(d, listed));
+    }
   }
-  HWY_ALIGN std::int32_t bits[16];
-  hn::Store(weights, d, bits);
-  for (std::int32_t lane = 0; lane < lanes; ++lane) count.weights |= bits[lane];
+  HWY_ALIGN std::int32_t lane_weights[16];
+  hn::Store(weights, d, lane_weights);
+  MergedCount count;
+  for (std::int32_t lane = 0; lane < lanes; ++lane) count.weights |= lane_weights[lane];
   count.unbounded = hn::GetLane(hn::SumOfLanes(d, unbounded));
-  if (count.windows == 0) return count;
+  if (count.weights == 0) return count;
   count.least_col = hn::GetLane(hn::MinOfLanes(d, least_col));
   count.least_row = hn::GetLane(hn::MinOfLanes(d, least_row));
   count.most_col = hn::GetLane(hn::MaxOfLanes(d, most_col));
   count.most_row = hn::GetLane(hn::MaxOfLanes(d, most_row));
   return count;
-}
-
-std::size_t ListWindows(const MergedWindows& merged, std::size_t windows, int bit, std::int32_t stride,
-                        std::int32_t* plane, std::int32_t* col, std::int32_t* row, std::int32_t* first_byte) {
-  const Tag d;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto zero = hn::Zero(d);
-  const auto wanted = hn::Set(d, std::int32_t{1} << bit);
-  std::size_t listed = 0;
-  for (std::size_t i = 0; i < windows; i += lanes) {
-    // Weights behind the last are not known.
-    const auto is_window =
-        hn::Lt(hn::Iota(d, static_cast<std::int32_t>(i)), hn::Set(d, static_cast<std::int32_t>(windows)));
-    const auto has_bit = hn::Ne(hn::And(hn::LoadU(d, merged.weight + i), wanted), zero);
-    const auto chosen = hn::And(is_window, has_bit);
-    const auto planes = hn::LoadU(d, merged.plane + i);
-    const auto cols = hn::LoadU(d, merged.col + i);
-    const auto rows = hn::LoadU(d, merged.row + i);
-    Append(planes, chosen, plane + listed);
-    Append(cols, chosen, col + listed);
-    Append(rows, chosen, row + listed);
-    const auto first = hn::Add(hn::Add(planes, cols), hn::Mul(rows, hn::Set(d, stride)));
-    Append(hn::ShiftLeft<2>(first), chosen, first_byte + listed);
-    listed += hn::CountTrue(d, chosen);
-  }
-  return listed;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -142,7 +124,8 @@ namespace scalar {
 
 MergedCount merge_windows(const std::int32_t* col_half, const std::int32_t* row_half,
                           const std::int32_t* size_halves, std::size_t points, const WindowShelf& shelf,
-                          std::int32_t* /*run_begin*/, const MergedWindows& merged) {
+                          std::int32_t* /*run_begin*/, const WindowLists& lists) {
+  begin_lists(points, lists);
   MergedCount count;
   for (std::size_t i = 0, end = 0; i < points; i = end) {
     const auto equal = [&](std::size_t other) {
@@ -152,59 +135,42 @@ MergedCount merge_windows(const std::int32_t* col_half, const std::int32_t* row_
     for (end = i + 1; end < points && equal(end);) ++end;
     const auto weight = static_cast<std::int32_t>(end - i);
     if (size_halves[i] == 0) continue;
-    const std::int32_t plane = shelf.plane_of_size[std::min(size_halves[i], WindowShelf::sizes - 1)];
-    if (plane < 0) {
+    const std::int32_t plane_of = shelf.plane_of_size[std::min(size_halves[i], WindowShelf::sizes - 1)];
+    if (plane_of < 0) {
       count.unbounded += weight;
       continue;
     }
     const std::int32_t phase = 2 * (row_half[i] & 1) + (col_half[i] & 1);
+    const std::int32_t plane = plane_of + phase * shelf.plane_size;
     const std::int32_t col = (col_half[i] >> 1) + shelf.pad_cols;
     const std::int32_t row = (row_half[i] >> 1) + shelf.pad_rows;
-    const bool first = count.windows == 0;
+    const bool first = count.weights == 0;
     count.least_col = first ? col : std::min(count.least_col, col);
     count.most_col = first ? col : std::max(count.most_col, col);
     count.least_row = first ? row : std::min(count.least_row, row);
     count.most_row = first ? row : std::max(count.most_row, row);
     count.weights |= weight;
-    merged.plane[count.windows] = plane + phase * shelf.plane_size;
-    merged.col[count.windows] = col;
-    merged.row[count.windows] = row;
-    merged.weight[count.windows++] = weight;
+    for (int bit = 0; weight >> bit != 0; ++bit) {
+      if (((weight >> bit) & 1) == 0) continue;
+      const std::int32_t at = lists.end[bit]++;
+      lists.plane[at] = plane;
+      lists.col[at] = col;
+      lists.row[at] = row;
+      lists.first_byte[at] = 4 * (plane + row * shelf.stride + col);
+    }
   }
   return count;
-}
-
-std::size_t list_windows(const MergedWindows& merged, std::size_t windows, int bit, std::int32_t stride,
-                         std::int32_t* plane, std::int32_t* col, std::int32_t* row,
-                         std::int32_t* first_byte) {
-  std::size_t listed = 0;
-  for (std::size_t i = 0; i < windows; ++i) {
-    if (((merged.weight[i] >> bit) & 1) == 0) continue;
-    plane[listed] = merged.plane[i];
-    col[listed] = merged.col[i];
-    row[listed] = merged.row[i];
-    first_byte[listed++] = 4 * (merged.plane[i] + merged.row[i] * stride + merged.col[i]);
-  }
-  return listed;
 }
 
 }  // namespace scalar
 
 HWY_EXPORT(MergeWindows);
-HWY_EXPORT(ListWindows);
 
 MergedCount merge_windows(const std::int32_t* col_half, const std::int32_t* row_half,
                           const std::int32_t* size_halves, std::size_t points, const WindowShelf& shelf,
-                          std::int32_t* run_begin, const MergedWindows& merged) {
+                          std::int32_t* run_begin, const WindowLists& lists) {
   const auto run = scalar_selected() ? scalar::merge_windows : HWY_DYNAMIC_DISPATCH(MergeWindows);
-  return run(col_half, row_half, size_halves, points, shelf, run_begin, merged);
-}
-
-std::size_t list_windows(const MergedWindows& merged, std::size_t windows, int bit, std::int32_t stride,
-                         std::int32_t* plane, std::int32_t* col, std::int32_t* row,
-                         std::int32_t* first_byte) {
-  const auto run = scalar_selected() ? scalar::list_windows : HWY_DYNAMIC_DISPATCH(ListWindows);
-  return run(merged, windows, bit, stride, plane, col, row, first_byte);
+  return run(col_half, row_half, size_halves, points, shelf, run_begin, lists);
 }
 
 }  // namespace landfall::kernels

@@ -2,8 +2,11 @@
 // higher weight, and each weight's bits say which lists a point stands in.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+
+#include "kernels/bound_tile.hpp"
 
 namespace landfall::kernels {
 
@@ -19,16 +22,35 @@ struct WindowShelf {
   std::int32_t pad_rows;
 };
 
-// Structure of arrays, room for all points and `point_padding` more (bound_tile.hpp).
-struct MergedWindows {
+// What BoundPoints lists, bit by bit of the windows' weights: the list of bit b is [begin[b], end[b]) of the
+// arrays. A list has room for as many windows as can have so many points, and padding (bound_tile.hpp).
+struct WindowLists {
   std::int32_t* plane;
   std::int32_t* col;
   std::int32_t* row;
-  std::int32_t* weight;
+  std::int32_t* first_byte;
+  std::int32_t* begin;  // [list_count(points)], as is `end`
+  std::int32_t* end;
 };
+// Lists that so many points may need, and elements of all of them.
+constexpr int list_count(std::size_t points) {
+  return std::bit_width(points);
+}
+constexpr std::size_t lists_room(std::size_t points) {
+  std::size_t room = 0;
+  for (int bit = 0; bit < list_count(points); ++bit) room += (points >> bit) + point_padding;
+  return room;
+}
+// Sets where lists begin, and empties them.
+inline void begin_lists(std::size_t points, const WindowLists& lists) {
+  std::int32_t at = 0;
+  for (int bit = 0; bit < list_count(points); ++bit) {
+    lists.begin[bit] = lists.end[bit] = at;
+    at += static_cast<std::int32_t>((points >> bit) + point_padding);
+  }
+}
 
 struct MergedCount {
-  std::size_t windows = 0;
   std::int32_t unbounded = 0;  // points that no window is wide enough for
   std::int32_t weights = 0;    // all weights' bits
   std::int32_t least_col = 0, most_col = 0;
@@ -36,23 +58,17 @@ struct MergedCount {
   friend bool operator==(const MergedCount&, const MergedCount&) = default;
 };
 
-// Points side by side whose windows (kernels::point_windows) are equal, in order; size 0 is left out.
-// `run_begin` holds one element per point, and point_padding.
+// Points side by side whose windows (kernels::point_windows) are equal are one of a weight, which stands in
+// the list of every bit of it; size 0 is left out. `run_begin` holds one element per point, and
+// point_padding.
 MergedCount merge_windows(const std::int32_t* col_half, const std::int32_t* row_half,
                           const std::int32_t* size_halves, std::size_t points, const WindowShelf& shelf,
-                          std::int32_t* run_begin, const MergedWindows& merged);
-
-// The list of those whose weight has the bit `bit`, and 4 * (plane + row * stride + col) of each. How many;
-// up to point_padding elements beyond are overwritten.
-std::size_t list_windows(const MergedWindows& merged, std::size_t windows, int bit, std::int32_t stride,
-                         std::int32_t* plane, std::int32_t* col, std::int32_t* row, std::int32_t* first_byte);
+                          std::int32_t* run_begin, const WindowLists& lists);
 
 namespace scalar {
 MergedCount merge_windows(const std::int32_t* col_half, const std::int32_t* row_half,
                           const std::int32_t* size_halves, std::size_t points, const WindowShelf& shelf,
-                          std::int32_t* run_begin, const MergedWindows& merged);
-std::size_t list_windows(const MergedWindows& merged, std::size_t windows, int bit, std::int32_t stride,
-                         std::int32_t* plane, std::int32_t* col, std::int32_t* row, std::int32_t* first_byte);
+                          std::int32_t* run_begin, const WindowLists& lists);
 }  // namespace scalar
 
 }  // namespace landfall::kernels

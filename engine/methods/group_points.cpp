@@ -14,14 +14,10 @@ namespace {
 // What a build needs meanwhile; kept, for a search builds hundreds.
 struct Workspace {
   std::vector<std::int32_t> col_half, row_half, size_halves, run_begin;
-  std::vector<std::int32_t> plane, col, row, weight;
 
   void resize(std::size_t points) {
-    for (auto* numbers : {&col_half, &row_half, &size_halves, &run_begin, &plane, &col, &row, &weight})
+    for (auto* numbers : {&col_half, &row_half, &size_halves, &run_begin})
       numbers->resize(points + kernels::point_padding);
-  }
-  [[nodiscard]] kernels::MergedWindows merged() {
-    return {.plane = plane.data(), .col = col.data(), .row = row.data(), .weight = weight.data()};
   }
 };
 
@@ -43,22 +39,22 @@ void GroupPoints::build(const EndPoints& points, const Lattice& lattice, const B
                           .height_cells = lattice.height_cells,
                           .block_cells = table.block_cells()},
                          work.col_half.data(), work.row_half.data(), work.size_halves.data());
-  const kernels::MergedWindows merged = work.merged();
-  merged_ = kernels::merge_windows(work.col_half.data(), work.row_half.data(), work.size_halves.data(),
-                                   points.size(), table.shelf(), work.run_begin.data(), merged);
-  // A point of weight w stands in at most w lists.
-  if (room_ != points.size() + kernels::point_padding) {
-    room_ = points.size() + kernels::point_padding;
+  if (room_ != kernels::lists_room(points.size())) {
+    room_ = kernels::lists_room(points.size());
     numbers_ = std::make_unique_for_overwrite<std::int32_t[]>(4 * room_);
   }
+  merged_ = kernels::merge_windows(work.col_half.data(), work.row_half.data(), work.size_halves.data(),
+                                   points.size(), table.shelf(), work.run_begin.data(),
+                                   {.plane = numbers(0),
+                                    .col = numbers(1),
+                                    .row = numbers(2),
+                                    .first_byte = numbers(3),
+                                    .begin = list_begin_.data(),
+                                    .end = list_end_.data()});
   lists_ = std::max(1, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(merged_.weights))));
-  std::size_t at = 0;
-  for (int list = 0; list < lists_; ++list) {
-    list_begin_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(at);
-    at += kernels::list_windows(merged, merged_.windows, lists_ - 1 - list, table.shelf().stride,
-                                numbers(0) + at, numbers(1) + at, numbers(2) + at, numbers(3) + at);
-    list_end_[static_cast<std::size_t>(list)] = static_cast<std::int32_t>(at);
-  }
+  // The kernel takes the highest bit first.
+  std::reverse(list_begin_.begin(), list_begin_.begin() + lists_);
+  std::reverse(list_end_.begin(), list_end_.begin() + lists_);
 }
 
 kernels::BoundPoints GroupPoints::view() const {

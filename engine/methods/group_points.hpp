@@ -30,7 +30,7 @@ class GroupPoints {
  private:
   static constexpr std::size_t most_lists = 31;  // as many as a weight has bits
 
-  // What BoundPoints points to, `room_` elements each, one list after the other.
+  // What BoundPoints points to, `room_` elements each.
   [[nodiscard]] std::int32_t* numbers(std::size_t which) const { return numbers_.get() + which * room_; }
 
   std::size_t room_ = 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <vector>
 
 #include "instruction_sets.hpp"
@@ -23,15 +24,11 @@ kernels::WindowShelf make_shelf() {
   return shelf;
 }
 
+// The lists of bits 0, 1, ...; none of those above the highest bit of any weight.
 struct Merged {
   kernels::MergedCount count;
-  Integers plane, col, row, weight;
+  std::vector<Integers> plane, col, row, first_byte;
   friend bool operator==(const Merged&, const Merged&) = default;
-};
-
-struct Listed {
-  Integers plane, col, row, first_byte;
-  friend bool operator==(const Listed&, const Listed&) = default;
 };
 
 struct Windows {
@@ -46,24 +43,32 @@ struct Windows {
   }
   template <class Kernel>
   [[nodiscard]] Merged merge(const Kernel& kernel) const {
-    const std::size_t room = col_half.size() + kernels::point_padding;
-    Merged merged{.count = {},
-                  .plane = Integers(room),
-                  .col = Integers(room),
-                  .row = Integers(room),
-                  .weight = Integers(room)};
-    Integers run_begin(room);
-    merged.count = kernel(col_half.data(), row_half.data(), size_halves.data(), col_half.size(), make_shelf(),
-                          run_begin.data(), view(merged));
-    for (Integers* numbers : {&merged.plane, &merged.col, &merged.row, &merged.weight})
-      numbers->resize(merged.count.windows);
+    const std::size_t points = col_half.size();
+    const std::size_t room = kernels::lists_room(points);
+    const auto most_lists = static_cast<std::size_t>(kernels::list_count(points));
+    Integers plane(room), col(room), row(room), first_byte(room), begin(most_lists), end(most_lists);
+    Integers run_begin(points + kernels::point_padding);
+    Merged merged;
+    merged.count =
+        kernel(col_half.data(), row_half.data(), size_halves.data(), points, make_shelf(), run_begin.data(),
+               {.plane = plane.data(),
+                .col = col.data(),
+                .row = row.data(),
+                .first_byte = first_byte.data(),
+                .begin = begin.data(),
+                .end = end.data()});
+    const auto lists = static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(merged.count.weights)));
+    for (std::size_t bit = 0; bit < lists; ++bit) {
+      const auto listed = [&](const Integers& all) {
+        return Integers(all.begin() + begin[bit], all.begin() + end[bit]);
+      };
+      merged.plane.push_back(listed(plane));
+      merged.col.push_back(listed(col));
+      merged.row.push_back(listed(row));
+      merged.first_byte.push_back(listed(first_byte));
+    }
+    for (std::size_t bit = lists; bit < most_lists; ++bit) EXPECT_EQ(begin[bit], end[bit]);
     return merged;
-  }
-  static kernels::MergedWindows view(Merged& merged) {
-    return {.plane = merged.plane.data(),
-            .col = merged.col.data(),
-            .row = merged.row.data(),
-            .weight = merged.weight.data()};
   }
 };
 
@@ -87,23 +92,29 @@ TEST(MergeWindowsByHand, SaysWhereAWindowStands) {
   windows.add(1, 1, 0, 5);   // off the map
   windows.add(1, 1, 11, 4);  // too wide
   windows.add(-3, 4, 3, 1);  // no neighbour of the first two
-  Merged merged = windows.merge(kernels::scalar::merge_windows);
-  EXPECT_EQ(merged.plane, (Integers{1000, 6000, 1000}));
-  EXPECT_EQ(merged.col, (Integers{5, 10, 5}));
-  EXPECT_EQ(merged.row, (Integers{7, 7, 7}));
-  EXPECT_EQ(merged.weight, (Integers{2, 1, 1}));
+  const Merged merged = windows.merge(kernels::scalar::merge_windows);
+  EXPECT_EQ(merged.plane, (std::vector<Integers>{{6000, 1000}, {1000}}));
+  EXPECT_EQ(merged.col, (std::vector<Integers>{{10, 5}, {5}}));
+  EXPECT_EQ(merged.row, (std::vector<Integers>{{7, 7}, {7}}));
+  EXPECT_EQ(merged.first_byte, (std::vector<Integers>{{4 * (6000 + 7 * 40 + 10), 4 * (1000 + 7 * 40 + 5)},
+                                                      {4 * (1000 + 7 * 40 + 5)}}));
   EXPECT_EQ(merged.count.unbounded, 4);
   EXPECT_EQ(merged.count.weights, 3);
   EXPECT_EQ(merged.count.least_col, 5);
   EXPECT_EQ(merged.count.most_col, 10);
   EXPECT_EQ(merged.count.least_row, 7);
   EXPECT_EQ(merged.count.most_row, 7);
-  Integers plane(3), col(3), row(3), first_byte(3);
-  ASSERT_EQ(kernels::scalar::list_windows(Windows::view(merged), 3, 0, 40, plane.data(), col.data(),
-                                          row.data(), first_byte.data()),
-            2U);
-  EXPECT_EQ(plane, (Integers{6000, 1000, 0}));
-  EXPECT_EQ(first_byte, (Integers{4 * (6000 + 7 * 40 + 10), 4 * (1000 + 7 * 40 + 5), 0}));
+}
+
+// A list is as long as it can be: of n points n / 2 pairs.
+TEST(MergeWindowsByHand, ListsHaveRoomForAllThatCanStandInThem) {
+  for (const int weight : {1, 2, 3, 4, 7}) {
+    Windows windows;
+    for (int i = 0; i < 100; ++i) windows.add(i, 0, 3, weight);
+    const Merged merged = windows.merge(kernels::scalar::merge_windows);
+    for (std::size_t bit = 0; bit < merged.col.size(); ++bit)
+      EXPECT_EQ(merged.col[bit].size(), ((weight >> bit) & 1) == 1 ? 100U : 0U);
+  }
 }
 
 class MergeWindows : public ::testing::TestWithParam<std::string> {
@@ -119,26 +130,6 @@ TEST_P(MergeWindows, EqualsItsTwin) {
       EXPECT_EQ(windows.merge(kernels::merge_windows), windows.merge(kernels::scalar::merge_windows))
           << points;
     }
-}
-
-TEST_P(MergeWindows, ListsEqualTheirTwins) {
-  for (const int points : testing::point_counts) {
-    Merged merged = random_windows(random_, points).merge(kernels::scalar::merge_windows);
-    const std::size_t windows = merged.count.windows;
-    for (Integers* numbers : {&merged.plane, &merged.col, &merged.row, &merged.weight})
-      numbers->resize(windows + kernels::point_padding, -1);
-    const auto list = [&](const auto& kernel, int bit) {
-      const std::size_t room = windows + kernels::point_padding;
-      Listed listed{Integers(room), Integers(room), Integers(room), Integers(room)};
-      const std::size_t count = kernel(Windows::view(merged), windows, bit, 40, listed.plane.data(),
-                                       listed.col.data(), listed.row.data(), listed.first_byte.data());
-      for (Integers* numbers : {&listed.plane, &listed.col, &listed.row, &listed.first_byte})
-        numbers->resize(count);
-      return listed;
-    };
-    for (const int bit : {0, 1, 2, 8})
-      EXPECT_EQ(list(kernels::list_windows, bit), list(kernels::scalar::list_windows, bit)) << points;
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, MergeWindows, ::testing::ValuesIn(testing::instruction_sets()),
