@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <vector>
 
 #include "bench/load_bandwidth.hpp"
 #include "kernels/isa.hpp"
@@ -63,11 +64,14 @@ std::uint8_t sum_bytes(std::span<const std::uint8_t> bytes) {
                                     : HWY_DYNAMIC_DISPATCH(sum_vectors)(bytes.data(), bytes.size());
 }
 
+namespace {
+
 double load_bytes_per_s(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t bytes_per_turn = std::size_t{1} << 24;
   const std::size_t passes = std::max<std::size_t>(1, bytes_per_turn / bytes.size());
   std::array<double, 9> rates{};
   volatile std::uint8_t kept = 0;
+  for (int warm = 0; warm < 8; ++warm) kept = sum_bytes(bytes);
   for (double& rate : rates) {
     const std::clock_t start = std::clock();
     for (std::size_t pass = 0; pass < passes; ++pass) kept = sum_bytes(bytes);
@@ -77,6 +81,18 @@ double load_bytes_per_s(std::span<const std::uint8_t> bytes) {
   (void)kept;
   std::nth_element(rates.begin(), rates.begin() + rates.size() / 2, rates.end());
   return rates[rates.size() / 2];
+}
+
+}  // namespace
+
+LoadRates measure_loads(std::size_t bytes) {
+  constexpr std::size_t line = 64;
+  constexpr std::size_t off = 4;
+  const std::vector<std::uint8_t> buffer(bytes + 2 * line, 1);
+  const std::size_t past = reinterpret_cast<std::uintptr_t>(buffer.data()) % line;
+  const std::span<const std::uint8_t> from_line = std::span(buffer).subspan((line - past) % line);
+  return {.aligned_bytes_per_s = load_bytes_per_s(from_line.first(bytes)),
+          .split_bytes_per_s = load_bytes_per_s(from_line.subspan(off, bytes))};
 }
 
 }  // namespace landfall::bench

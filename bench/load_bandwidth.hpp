@@ -15,8 +15,12 @@ namespace scalar {
 std::uint8_t sum_bytes(std::span<const std::uint8_t> bytes);
 }
 
-// Median rate (by processor time) of sum_bytes over the same bytes again and again: what the cache that
-// they fit into gives.
-double load_bytes_per_s(std::span<const std::uint8_t> bytes);
+// Median rates (by processor time) of sum_bytes over so many bytes again and again, a multiple of 512: what
+// the cache that they fit into gives.
+struct LoadRates {
+  double aligned_bytes_per_s = 0.0;  // from the beginning of a cache line
+  double split_bytes_per_s = 0.0;    // from 4 bytes behind it
+};
+LoadRates measure_loads(std::size_t bytes);
 
 }  // namespace landfall::bench

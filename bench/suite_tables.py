@@ -8,6 +8,7 @@ from pathlib import Path
 from google_benchmark import Median, Suite, load_suite
 
 RATES = ("bytes/s", "points/s", "blocks/s", "poses/s")
+LOADS = ("load_bytes/s", "split_load_bytes/s")  # limits of the bound kernel
 Table = list[list[str]]
 
 
@@ -34,7 +35,7 @@ def suite_sections(folder: Path) -> dict[str, tuple[str, Table]]:
 
 
 def kernel_table(medians: Mapping[str, Median]) -> Table:
-    """A row per kernel, a column per instruction set; the bound kernel with its share of the load rate."""
+    """A row per kernel, a column per instruction set; the bound kernel with its shares of the load rates."""
     kernels: dict[str, dict[str, Median]] = {}
     for name, median in medians.items():
         kernel, isa = name.rsplit("/", 1)
@@ -50,8 +51,10 @@ def kernel_table(medians: Mapping[str, Median]) -> Table:
 def _rate(median: Median | None, unit: str) -> str:
     if median is None:
         return "-"
-    rate, limit = median.counters[unit], median.counters.get("load_bytes/s")
-    return _millions(rate) + (f" ({100.0 * rate / limit:.0f} %)" if limit else "")
+    rate = median.counters[unit]
+    limits = [median.counters[load] for load in LOADS if load in median.counters]
+    shares = ", ".join(f"{100.0 * rate / limit:.0f}" for limit in limits)
+    return _millions(rate) + (f" ({shares} %)" if limits else "")
 
 
 def ray_table(medians: Mapping[str, Median]) -> Table:
