@@ -72,20 +72,21 @@ HWY_INLINE Sample SampleField(const FieldView& field, Vec x_cells, Vec y_cells) 
           .d_row = hn::IfThenElseZero(inside, hn::Sub(high, low))};
 }
 
+// Points first, first + sum_lanes, ... of each of a vector's lanes, whose sums stay in registers.
 template <bool Root>
-HWY_INLINE FieldSums Sum(const FieldView& field, const FieldPose& pose, const double* x_cells,
-                         const double* y_cells, std::size_t points) {
+HWY_INLINE void AddLanes(const FieldView& field, const FieldPose& pose, const double* HWY_RESTRICT x_cells,
+                         const double* HWY_RESTRICT y_cells, std::size_t first, std::size_t points,
+                         FieldSumLanes& sums) {
   const Tag d;
-  const std::size_t lanes = hn::Lanes(d);
+  const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0);
   const auto c = hn::Set(d, pose.cos_theta);
   const auto s = hn::Set(d, pose.sin_theta);
   const auto x0 = hn::Set(d, pose.x_cells);
   const auto y0 = hn::Set(d, pose.y_cells);
-  FieldSumLanes sums;
-  const bool has_square = field.width_cells >= 2 && field.height_cells >= 2;
-  const std::size_t whole = has_square ? points / sum_lanes * sum_lanes : 0;
-  for (std::size_t i = 0; i < whole; i += lanes) {
+  auto cost = zero, field_sum = zero, h_xx = zero, h_xy = zero, h_xt = zero, h_yy = zero, h_yt = zero;
+  auto h_tt = zero, g_x = zero, g_y = zero, g_t = zero;
+  for (std::size_t i = first; i < points; i += sum_lanes) {
     const auto x_scan = hn::LoadU(d, x_cells + i);
     const auto y_scan = hn::LoadU(d, y_cells + i);
     const auto x = hn::Sub(hn::Mul(c, x_scan), hn::Mul(s, y_scan));
@@ -97,22 +98,39 @@ HWY_INLINE FieldSums Sum(const FieldView& field, const FieldPose& pose, const do
     const auto pull = Root ? hn::Set(d, 0.5) : lack;
     const auto w_x = hn::Mul(weight, at.d_col);
     const auto w_y = hn::Mul(weight, at.d_row);
-    const auto add = [&](double* of_lanes, Vec value) HWY_ATTR {
-      double* to = of_lanes + i % sum_lanes;
-      hn::Store(hn::Add(hn::Load(d, to), value), d, to);
-    };
-    add(sums.cost, Root ? lack : hn::Mul(lack, lack));
-    add(sums.field, at.value);
-    add(sums.h_xx, hn::Mul(w_x, at.d_col));
-    add(sums.h_xy, hn::Mul(w_x, at.d_row));
-    add(sums.h_xt, hn::Mul(w_x, turn));
-    add(sums.h_yy, hn::Mul(w_y, at.d_row));
-    add(sums.h_yt, hn::Mul(w_y, turn));
-    add(sums.h_tt, hn::Mul(hn::Mul(weight, turn), turn));
-    add(sums.g_x, hn::Mul(pull, at.d_col));
-    add(sums.g_y, hn::Mul(pull, at.d_row));
-    add(sums.g_t, hn::Mul(pull, turn));
+    cost = hn::Add(cost, Root ? lack : hn::Mul(lack, lack));
+    field_sum = hn::Add(field_sum, at.value);
+    h_xx = hn::Add(h_xx, hn::Mul(w_x, at.d_col));
+    h_xy = hn::Add(h_xy, hn::Mul(w_x, at.d_row));
+    h_xt = hn::Add(h_xt, hn::Mul(w_x, turn));
+    h_yy = hn::Add(h_yy, hn::Mul(w_y, at.d_row));
+    h_yt = hn::Add(h_yt, hn::Mul(w_y, turn));
+    h_tt = hn::Add(h_tt, hn::Mul(hn::Mul(weight, turn), turn));
+    g_x = hn::Add(g_x, hn::Mul(pull, at.d_col));
+    g_y = hn::Add(g_y, hn::Mul(pull, at.d_row));
+    g_t = hn::Add(g_t, hn::Mul(pull, turn));
   }
+  hn::Store(cost, d, sums.cost + first);
+  hn::Store(field_sum, d, sums.field + first);
+  hn::Store(h_xx, d, sums.h_xx + first);
+  hn::Store(h_xy, d, sums.h_xy + first);
+  hn::Store(h_xt, d, sums.h_xt + first);
+  hn::Store(h_yy, d, sums.h_yy + first);
+  hn::Store(h_yt, d, sums.h_yt + first);
+  hn::Store(h_tt, d, sums.h_tt + first);
+  hn::Store(g_x, d, sums.g_x + first);
+  hn::Store(g_y, d, sums.g_y + first);
+  hn::Store(g_t, d, sums.g_t + first);
+}
+
+template <bool Root>
+HWY_INLINE FieldSums Sum(const FieldView& field, const FieldPose& pose, const double* x_cells,
+                         const double* y_cells, std::size_t points) {
+  FieldSumLanes sums;
+  const bool has_square = field.width_cells >= 2 && field.height_cells >= 2;
+  const std::size_t whole = has_square ? points / sum_lanes * sum_lanes : 0;
+  for (std::size_t lane = 0; whole > 0 && lane < sum_lanes; lane += hn::Lanes(Tag()))
+    AddLanes<Root>(field, pose, x_cells, y_cells, lane, whole, sums);
   const auto add_rest = Root ? scalar::add_root : scalar::add_lack;
   add_rest(field, pose, x_cells, y_cells, whole, points, sums);
   return sums.total();

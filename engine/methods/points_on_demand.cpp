@@ -1,33 +1,43 @@
 #include "engine/methods/points_on_demand.hpp"
 
+#include <new>
+#include <type_traits>
+
 namespace landfall::internal {
+namespace {
+
+constexpr std::size_t headings_at_first = 16;  // room for as many
+
+}  // namespace
 
 PointsOnDemand::PointsOnDemand(const EndPoints& points, const Lattice& lattice,
                                const kernels::WindowMaxima& maxima)
     : points_(points),
       lattice_(lattice),
       maxima_(maxima),
-      at_(std::make_unique<std::atomic<const AtHeading*>[]>(static_cast<std::size_t>(lattice.headings))) {}
+      at_(std::make_unique<std::atomic<const kernels::TilePoints*>[]>(
+          static_cast<std::size_t>(lattice.headings))),
+      memory_(headings_at_first * (3 * points.size() * sizeof(std::int32_t) + sizeof(kernels::TilePoints))) {}
 
-PointsOnDemand::~PointsOnDemand() {
-  for (int heading = 0; heading < lattice_.headings; ++heading)
-    delete at_[static_cast<std::size_t>(heading)].load(std::memory_order_relaxed);
+template <class T>
+T* PointsOnDemand::allocate(std::size_t count) {
+  static_assert(std::is_trivially_destructible_v<T>);
+  const std::lock_guard lock(mutex_);
+  return static_cast<T*>(memory_.allocate(count * sizeof(T), alignof(T)));
 }
 
 const kernels::TilePoints& PointsOnDemand::compute(int heading) {
   const std::size_t count = points_.size();
-  auto mine = std::make_unique<AtHeading>();
-  mine->numbers = std::make_unique_for_overwrite<std::int32_t[]>(3 * count);
-  std::int32_t* col = mine->numbers.get();
+  auto* col = allocate<std::int32_t>(3 * count);
   std::int32_t* row = col + count;
   std::int32_t* window = row + count;
   cells_at_heading(points_, lattice_, heading, col, row);
-  mine->points = kernels::tile_points(maxima_, col, row, count, window);
-  const AtHeading* known = nullptr;
-  if (at_[static_cast<std::size_t>(heading)].compare_exchange_strong(known, mine.get(),
-                                                                     std::memory_order_acq_rel))
-    return mine.release()->points;
-  return known->points;
+  const auto* mine = new (allocate<kernels::TilePoints>(1))
+      kernels::TilePoints(kernels::tile_points(maxima_, col, row, count, window));
+  const kernels::TilePoints* known = nullptr;
+  const bool first =
+      at_[static_cast<std::size_t>(heading)].compare_exchange_strong(known, mine, std::memory_order_acq_rel);
+  return first ? *mine : *known;
 }
 
 }  // namespace landfall::internal

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
+#include <mutex>
 
 #include "engine/end_points.hpp"
 #include "kernels/window_tile.hpp"
@@ -15,27 +17,24 @@ namespace landfall::internal {
 class PointsOnDemand {
  public:
   PointsOnDemand(const EndPoints& points, const Lattice& lattice, const kernels::WindowMaxima& maxima);
-  ~PointsOnDemand();
-  PointsOnDemand(const PointsOnDemand&) = delete;
-  PointsOnDemand& operator=(const PointsOnDemand&) = delete;
 
   const kernels::TilePoints& at(int heading) {
-    const AtHeading* known = at_[static_cast<std::size_t>(heading)].load(std::memory_order_acquire);
-    return known != nullptr ? known->points : compute(heading);
+    const kernels::TilePoints* known = at_[static_cast<std::size_t>(heading)].load(std::memory_order_acquire);
+    return known != nullptr ? *known : compute(heading);
   }
 
  private:
-  struct AtHeading {
-    std::unique_ptr<std::int32_t[]> numbers;  // what `points` points to
-    kernels::TilePoints points;
-  };
-
   const kernels::TilePoints& compute(int heading);
+  template <class T>
+  T* allocate(std::size_t count);
 
   const EndPoints& points_;
   const Lattice& lattice_;
   kernels::WindowMaxima maxima_;
-  std::unique_ptr<std::atomic<const AtHeading*>[]> at_;
+  std::unique_ptr<std::atomic<const kernels::TilePoints*>[]> at_;
+  // What these and their arrays lie in, for a search asks for dozens or hundreds.
+  std::mutex mutex_;
+  std::pmr::monotonic_buffer_resource memory_;
 };
 
 }  // namespace landfall::internal
