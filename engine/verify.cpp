@@ -22,21 +22,25 @@ struct ValidBeam {
   bool next_is_neighbour;  // the beam after it, in the list of valid beams
 };
 
+bool are_neighbours(const Pose2& a, const Pose2& b, double resolution_m) {
+  const double x_m = a.x_m - b.x_m;
+  const double y_m = a.y_m - b.y_m;
+  return angle_distance(a.theta_rad, b.theta_rad) < neighbour_rad &&
+         x_m * x_m + y_m * y_m < resolution_m * resolution_m;  // hypot is slow
+}
+
 std::vector<ValidBeam> valid_beams(const Scan& scan, double resolution_m) {
   const Sensor& sensor = *scan.sensor;
   std::vector<ValidBeam> beams;
+  beams.reserve(scan.ranges_m.size());
   for (std::size_t b = 0; b < scan.ranges_m.size(); ++b) {
     const Reading reading = classify(sensor.beams[b], scan.ranges_m[b]);
     if (reading == Reading::invalid) continue;
     const double seen_m = std::min<double>(scan.ranges_m[b], sensor.beams[b].range_max_m);
     const double noise_m = sensor.range_noise_m + sensor.range_noise_relative * seen_m;
-    if (!beams.empty()) {
-      const Beam& last = sensor.beams[beams.back().beam];
-      beams.back().next_is_neighbour =
-          angle_distance(last.T_robot_beam.theta_rad, sensor.beams[b].T_robot_beam.theta_rad) <
-              neighbour_rad &&
-          translation_distance(last.T_robot_beam, sensor.beams[b].T_robot_beam) < resolution_m;
-    }
+    if (!beams.empty())
+      beams.back().next_is_neighbour = are_neighbours(sensor.beams[beams.back().beam].T_robot_beam,
+                                                      sensor.beams[b].T_robot_beam, resolution_m);
     beams.push_back({.beam = b,
                      .range_m = scan.ranges_m[b],
                      .echo = reading == Reading::echo,

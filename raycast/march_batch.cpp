@@ -64,13 +64,17 @@ double length_to_slab(double at, double direction, double size) {
 }  // namespace
 
 FanBeams::FanBeams(std::span<const Beam> beams, double resolution_m) {
+  index.reserve(beams.size());
+  for (std::vector<float>* numbers : {&x, &y, &dx, &dy, &range_max}) numbers->reserve(beams.size());
   for (std::size_t b = 0; b < beams.size(); ++b) {
     if (beams[b].half_angle_rad > 0.0) continue;
     index.push_back(b);
     x.push_back(static_cast<float>(beams[b].x_m / resolution_m));
     y.push_back(static_cast<float>(beams[b].y_m / resolution_m));
-    dx.push_back(static_cast<float>(std::cos(beams[b].theta_rad)));
-    dy.push_back(static_cast<float>(std::sin(beams[b].theta_rad)));
+    const double c = std::cos(beams[b].theta_rad);
+    const double s = std::sin(beams[b].theta_rad);
+    dx.push_back(static_cast<float>(c));
+    dy.push_back(static_cast<float>(s));
     range_max.push_back(static_cast<float>(beams[b].range_max_m / resolution_m));
     near_pose = near_pose && std::abs(x.back()) < near_cells && std::abs(y.back()) < near_cells;
   }
