@@ -69,6 +69,9 @@ def search(  # type: ignore[overload-cannot-match]
 def search(map, prior, scans, **options):  # type: ignore[no-untyped-def]
     """Where was the robot? results[i] answers scans[i]; a single Scan gives a single result.
 
+    Many scans are answered side by side; a log's, in their order and with odometry, fastest: each then begins
+    where the one before leads. Answers are those of each scan alone.
+
     map: a PreparedMap (or a GridMap or WallMap, prepared here each time), or a list of them: hypotheses
         are then ranked across the maps, Hypothesis.map_index says which.
     prior: where to look; None is anywhere in the free space; a list holds one prior per scan.
