@@ -341,7 +341,7 @@ typedef struct landfall_result {
 typedef struct landfall_results landfall_results;
 
 /* Answers each scan of the list, in parallel; scans that follow each other with odometry are answered faster,
-   with the same answers. A scan without a valid beam is an answer (lost), not an error.
+ * with the same answers. A scan without a valid beam is an answer (lost), not an error.
  */
 LANDFALL_API landfall_status landfall_search(const landfall_map* map, const landfall_prior* prior,
                                              const landfall_scans* scans,
