@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "bench/places.hpp"
+#include "engine/maps/prepared_state.hpp"
 #include "engine/methods/fft/bare_transforms.hpp"
 #include "engine/methods/fft/correlation_search.hpp"
 #include "engine/methods/fft/correlator.hpp"
 #include "engine/methods/fft/exact_blocks.hpp"
-#include "engine/prepared_state.hpp"
 #include "landfall/correlation.hpp"
 
 namespace landfall::bench {

@@ -14,8 +14,8 @@
 #include "bench/context.hpp"
 #include "bench/growth_cases.hpp"
 #include "bench/places.hpp"
-#include "engine/lattice.hpp"
-#include "engine/thread_time.hpp"
+#include "engine/base/thread_time.hpp"
+#include "engine/priors/lattice.hpp"
 #include "landfall/search.hpp"
 
 namespace landfall::bench {

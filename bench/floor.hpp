@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "landfall/grid_map.hpp"
 
 namespace landfall::bench {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/office.hpp"
-#include "engine/end_points.hpp"
-#include "engine/search_tables.hpp"
+#include "engine/maps/search_tables.hpp"
+#include "engine/scans/end_points.hpp"
 #include "kernels/bound_tile.hpp"
 #include "kernels/end_points.hpp"
 #include "kernels/score_block.hpp"

@@ -2,7 +2,7 @@
 // with furniture of its own. Of another number of rooms where growth is measured.
 #pragma once
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "landfall/grid_map.hpp"
 
 namespace landfall::bench {

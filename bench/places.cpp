@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "bench/office.hpp"
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "landfall/io.hpp"
 #include "landfall/simulate.hpp"
 #include "tests/data_folder.hpp"

@@ -8,7 +8,7 @@
 
 #include "bench/office.hpp"
 #include "bench/places.hpp"
-#include "engine/to_raycast.hpp"
+#include "engine/maps/to_raycast.hpp"
 #include "landfall/io.hpp"
 #include "raycast/segment_tree.hpp"
 #include "tests/data_folder.hpp"

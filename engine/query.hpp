@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/domain.hpp"
-#include "engine/end_points.hpp"
 #include "engine/evidence.hpp"
 #include "engine/guess.hpp"
-#include "engine/lattice.hpp"
-#include "engine/prepared_state.hpp"
+#include "engine/maps/prepared_state.hpp"
+#include "engine/priors/domain.hpp"
+#include "engine/priors/lattice.hpp"
+#include "engine/scans/end_points.hpp"
 #include "landfall/search.hpp"
 
 namespace landfall::internal {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/executor.hpp"
+#include "engine/base/executor.hpp"
 
 namespace landfall::testing {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "engine/end_points.hpp"
+#include "engine/scans/end_points.hpp"
 #include "landfall/prepared_map.hpp"
 
 namespace landfall::bench {

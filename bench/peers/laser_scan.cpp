@@ -8,9 +8,9 @@
 
 #include "bench/peers/comparisons.hpp"
 #include "bench/peers/mrpt.hpp"
-#include "engine/counter_rng.hpp"
-#include "engine/prepared_state.hpp"
-#include "engine/to_raycast.hpp"
+#include "engine/base/counter_rng.hpp"
+#include "engine/maps/prepared_state.hpp"
+#include "engine/maps/to_raycast.hpp"
 
 namespace landfall::bench {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/places.hpp"
-#include "engine/end_points.hpp"
-#include "engine/lattice.hpp"
+#include "engine/priors/lattice.hpp"
+#include "engine/scans/end_points.hpp"
 
 namespace landfall::bench {
 

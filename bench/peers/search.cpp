@@ -5,7 +5,7 @@
 
 #include "bench/peers/comparisons.hpp"
 #include "bench/peers/textbook.hpp"
-#include "engine/thread_time.hpp"
+#include "engine/base/thread_time.hpp"
 
 namespace landfall::bench {
 namespace {

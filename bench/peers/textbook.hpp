@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/end_points.hpp"
-#include "engine/lattice.hpp"
+#include "engine/priors/lattice.hpp"
+#include "engine/scans/end_points.hpp"
 #include "landfall/prepared_map.hpp"
 
 namespace landfall::bench {

@@ -9,7 +9,7 @@
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "engine/number_text.hpp"
+#include "engine/base/number_text.hpp"
 #include "landfall/error.hpp"
 #include "landfall/grid_map.hpp"
 #include "landfall/prepared_map.hpp"

@@ -1,7 +1,7 @@
 // Odometry from one scan to the next.
 #pragma once
 
-#include "engine/odometry.hpp"
+#include "engine/sequence/odometry.hpp"
 #include "landfall/pose2.hpp"
 
 namespace landfall::internal {

@@ -3,9 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "engine/grid_extent.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/mapping/log_odds_grid.hpp"
-#include "engine/number_text.hpp"
+#include "engine/maps/grid_extent.hpp"
 #include "landfall/error.hpp"
 #include "landfall/mapping.hpp"
 

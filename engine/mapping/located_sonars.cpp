@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <numbers>
 
-#include "engine/grid_extent.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/mapping/log_odds_grid.hpp"
-#include "engine/number_text.hpp"
+#include "engine/maps/grid_extent.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/options.hpp"
+#include "engine/base/rigid.hpp"
 #include "engine/mapping/slam/check.hpp"
 #include "engine/mapping/slam/match.hpp"
-#include "engine/options.hpp"
-#include "engine/rigid.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {

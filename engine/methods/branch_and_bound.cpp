@@ -8,11 +8,11 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/methods/block_scorer.hpp"
-#include "engine/methods/dense_bounds.hpp"
-#include "engine/methods/point_order.hpp"
+#include "engine/base/parallel.hpp"
+#include "engine/methods/branch_and_bound/block_scorer.hpp"
+#include "engine/methods/branch_and_bound/dense_bounds.hpp"
+#include "engine/methods/branch_and_bound/point_order.hpp"
 #include "engine/methods/table.hpp"
-#include "engine/parallel.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "engine/base/parallel.hpp"
 #include "engine/methods/table.hpp"
-#include "engine/parallel.hpp"
 #include "kernels/score_row.hpp"
 
 namespace landfall::internal {

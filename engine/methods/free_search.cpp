@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/lattice_score.hpp"
-#include "engine/pose_sampler.hpp"
+#include "engine/priors/pose_sampler.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/parallel.hpp"
+#include "engine/maps/to_raycast.hpp"
 #include "engine/methods/free_search.hpp"
 #include "engine/methods/table.hpp"
-#include "engine/parallel.hpp"
 #include "engine/scan_matching/angle_histogram.hpp"
 #include "engine/scan_matching/icp.hpp"
-#include "engine/to_raycast.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -8,10 +8,10 @@
 // shown.
 #include <cmath>
 
+#include "engine/base/parallel.hpp"
 #include "engine/methods/free_search.hpp"
 #include "engine/methods/pso/swarm.hpp"
 #include "engine/methods/table.hpp"
-#include "engine/parallel.hpp"
 
 namespace landfall::internal {
 namespace {

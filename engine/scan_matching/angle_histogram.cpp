@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/rigid.hpp"
+#include "engine/base/rigid.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/align/twist.hpp"
-#include "engine/rigid.hpp"
+#include "engine/base/rigid.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/number_text.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/scan_matching/angle_histogram.hpp"
 #include "engine/scan_matching/icp.hpp"
 #include "landfall/error.hpp"

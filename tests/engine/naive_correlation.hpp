@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/end_points.hpp"
+#include "engine/scans/end_points.hpp"
 
 namespace landfall::testing {
 

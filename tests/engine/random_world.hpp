@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "landfall/search.hpp"
 #include "landfall/simulate.hpp"
 

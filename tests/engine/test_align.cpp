@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "landfall/error.hpp"
 #include "rooms.hpp"
 

@@ -1,5 +1,5 @@
 // The likelihood of ranges, against its mixture written out.
-#include "engine/beam_model.hpp"
+#include "engine/rank/beam_model.hpp"
 
 #include <gtest/gtest.h>
 

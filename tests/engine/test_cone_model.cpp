@@ -1,5 +1,5 @@
 // Readings of cones, of which many are too long, against their mixture written out.
-#include "engine/cone_model.hpp"
+#include "engine/rank/cone_model.hpp"
 
 #include <gtest/gtest.h>
 

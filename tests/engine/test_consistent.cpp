@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall {

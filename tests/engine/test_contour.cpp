@@ -1,5 +1,5 @@
 // Metres of contour that hold a pose: of rooms, corridors and walls that end points are laid on by hand.
-#include "engine/contour.hpp"
+#include "engine/verify/contour.hpp"
 
 #include <gtest/gtest.h>
 

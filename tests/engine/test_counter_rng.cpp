@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/distance_field.hpp"
+#include "engine/maps/distance_field.hpp"
 
 #include <gtest/gtest.h>
 

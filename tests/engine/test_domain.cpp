@@ -1,4 +1,4 @@
-#include "engine/domain.hpp"
+#include "engine/priors/domain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "drawn_map.hpp"
-#include "engine/prepared_state.hpp"
-#include "engine/thread_time.hpp"
+#include "engine/base/thread_time.hpp"
+#include "engine/maps/prepared_state.hpp"
 #include "random_world.hpp"
 
 namespace landfall {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "engine/mapping/slam/evidence_grid.hpp"
 #include "raycast/grid_walk.hpp"
 

@@ -1,5 +1,5 @@
 // Which scheduler runs parallel work, and what an unknown name does.
-#include "engine/executor.hpp"
+#include "engine/base/executor.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/prepared_state.hpp"
+#include "engine/maps/prepared_state.hpp"
 #include "executors.hpp"
 #include "landfall/error.hpp"
 #include "landfall/search.hpp"

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <thread>
 
+#include "engine/maps/prepared_state.hpp"
 #include "engine/methods/fft/correlation_search.hpp"
 #include "engine/methods/table.hpp"
-#include "engine/prepared_state.hpp"
 #include "random_world.hpp"
 #include "rooms.hpp"
 #include "same_answer.hpp"

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "data_folder.hpp"
+#include "engine/maps/prepared_state.hpp"
 #include "engine/methods/fft/correlation_search.hpp"
 #include "engine/methods/table.hpp"
-#include "engine/prepared_state.hpp"
 #include "landfall/io.hpp"
 
 namespace landfall {

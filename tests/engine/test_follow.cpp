@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "engine/hold_hypothesis.hpp"
+#include "engine/sequence/hold_hypothesis.hpp"
 #include "landfall/consistent.hpp"
 #include "landfall/error.hpp"
 #include "rooms.hpp"

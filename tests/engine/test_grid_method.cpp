@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/central_heading.hpp"
 #include "engine/methods/grid/local_grid.hpp"
 #include "engine/methods/table.hpp"
+#include "engine/priors/central_heading.hpp"
 #include "random_world.hpp"
 #include "rooms.hpp"
 #include "same_answer.hpp"

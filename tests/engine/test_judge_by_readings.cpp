@@ -1,5 +1,5 @@
 // Scans that were condensed from readings: end points propose, readings judge.
-#include "engine/judge_by_readings.hpp"
+#include "engine/rank/judge_by_readings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/lattice.hpp"
+#include "engine/priors/lattice.hpp"
 
 #include <gtest/gtest.h>
 

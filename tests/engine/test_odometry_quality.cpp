@@ -1,11 +1,11 @@
-#include "engine/odometry_quality.hpp"
+#include "engine/sequence/odometry_quality.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 
 namespace landfall::internal {
 namespace {

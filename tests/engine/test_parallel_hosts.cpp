@@ -11,7 +11,7 @@
 #include <thread>
 #include <tuple>
 
-#include "engine/parallel.hpp"
+#include "engine/base/parallel.hpp"
 #include "executors.hpp"
 #include "rooms.hpp"
 #include "same_answer.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "drawn_map.hpp"
-#include "engine/prepared_state.hpp"
+#include "engine/maps/prepared_state.hpp"
 #include "landfall/error.hpp"
 #include "rooms.hpp"
 

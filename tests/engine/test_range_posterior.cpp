@@ -1,5 +1,5 @@
 // Which of a method's best scores is the likeliest by its ranges, and how sure that is.
-#include "engine/range_posterior.hpp"
+#include "engine/rank/range_posterior.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/neighbourhoods.hpp"
+#include "engine/rank/neighbourhoods.hpp"
 #include "random_world.hpp"
 #include "rooms.hpp"
 #include "sonar_ring.hpp"

@@ -1,4 +1,4 @@
-#include "engine/rank.hpp"
+#include "engine/rank/rank.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

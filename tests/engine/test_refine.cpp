@@ -1,4 +1,4 @@
-#include "engine/refine.hpp"
+#include "engine/refine/refine.hpp"
 
 #include <gtest/gtest.h>
 

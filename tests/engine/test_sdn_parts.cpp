@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/maps/prepared_state.hpp"
 #include "engine/methods/sdn/beam_bands.hpp"
 #include "engine/methods/sdn/cells.hpp"
 #include "engine/methods/sdn/choose_parameters.hpp"
 #include "engine/methods/sdn/cluster.hpp"
 #include "engine/methods/sdn/equilibrium.hpp"
-#include "engine/pose_sampler.hpp"
-#include "engine/prepared_state.hpp"
+#include "engine/priors/pose_sampler.hpp"
 #include "rooms.hpp"
 
 namespace landfall {

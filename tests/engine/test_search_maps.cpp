@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/prepared_state.hpp"
+#include "engine/maps/prepared_state.hpp"
 #include "landfall/search.hpp"
 #include "rooms.hpp"
 

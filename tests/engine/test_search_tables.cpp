@@ -1,5 +1,5 @@
 // The tables of the bounds against naive maxima: no entry may be smaller.
-#include "engine/search_tables.hpp"
+#include "engine/maps/search_tables.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/settle.hpp"
+#include "engine/refine/settle.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "engine/mapping/slam/surface_map.hpp"
 #include "landfall/error.hpp"
 #include "landfall/mapping.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "engine/mapping/tbf/arc.hpp"
 #include "engine/mapping/tbf/ellipse_cells.hpp"
 #include "engine/mapping/tbf/reading_window.hpp"

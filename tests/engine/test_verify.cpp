@@ -1,4 +1,4 @@
-#include "engine/verify.hpp"
+#include "engine/verify/verify.hpp"
 
 #include <gtest/gtest.h>
 

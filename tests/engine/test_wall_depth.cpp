@@ -1,4 +1,4 @@
-#include "engine/wall_depth.hpp"
+#include "engine/maps/wall_depth.hpp"
 
 #include <gtest/gtest.h>
 

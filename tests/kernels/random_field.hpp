@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 
 namespace landfall::testing {
 

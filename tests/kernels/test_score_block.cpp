@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/search_tables.hpp"
+#include "engine/maps/search_tables.hpp"
 #include "instruction_sets.hpp"
 #include "random_field.hpp"
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <tuple>
 
-#include "engine/search_tables.hpp"
+#include "engine/maps/search_tables.hpp"
 #include "instruction_sets.hpp"
 #include "random_field.hpp"
 

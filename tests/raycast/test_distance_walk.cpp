@@ -11,7 +11,7 @@
 #include "agreement.hpp"
 #include "data_folder.hpp"
 #include "drawn_map.hpp"
-#include "engine/to_raycast.hpp"
+#include "engine/maps/to_raycast.hpp"
 #include "grid_oracle.hpp"
 #include "landfall/io.hpp"
 #include "landfall/wall_map.hpp"

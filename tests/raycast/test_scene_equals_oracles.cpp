@@ -8,7 +8,7 @@
 
 #include "agreement.hpp"
 #include "data_folder.hpp"
-#include "engine/to_raycast.hpp"
+#include "engine/maps/to_raycast.hpp"
 #include "grid_oracle.hpp"
 #include "landfall/io.hpp"
 #include "raycast/scene.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "engine/base/number_text.hpp"
 #include "engine/mapping/slam/evidence_grid.hpp"
-#include "engine/number_text.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {

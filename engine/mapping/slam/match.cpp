@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/align/residual_sum.hpp"
+#include "engine/base/rigid.hpp"
 #include "engine/methods/pso/swarm.hpp"
-#include "engine/rigid.hpp"
 #include "kernels/count_fits.hpp"
 
 namespace landfall::internal {

@@ -6,7 +6,7 @@
 
 #include "engine/align/residual_sum.hpp"
 #include "engine/align/twist.hpp"
-#include "engine/rigid.hpp"
+#include "engine/base/rigid.hpp"
 
 namespace landfall::internal {
 namespace {

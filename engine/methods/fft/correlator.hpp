@@ -2,8 +2,8 @@
 // correlated with the field (W), all translations at once. One per thread.
 #pragma once
 
-#include "engine/end_points.hpp"
 #include "engine/methods/fft/map_spectra.hpp"
+#include "engine/scans/end_points.hpp"
 
 namespace landfall::internal {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/methods/best_score.hpp"
+#include "engine/methods/branch_and_bound/best_score.hpp"
 #include "engine/query.hpp"
 
 namespace landfall::internal {

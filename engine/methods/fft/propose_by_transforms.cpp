@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/parallel.hpp"
 #include "engine/methods/fft/correlation_search.hpp"
 #include "engine/methods/fft/correlator.hpp"
 #include "engine/methods/fft/exact_blocks.hpp"
-#include "engine/parallel.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -1,9 +1,9 @@
 #include <atomic>
 #include <memory>
 
+#include "engine/base/parallel.hpp"
 #include "engine/methods/fft/correlation_search.hpp"
 #include "engine/methods/fft/exact_blocks.hpp"
-#include "engine/parallel.hpp"
 
 namespace landfall::internal {
 

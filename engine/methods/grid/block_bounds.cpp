@@ -4,8 +4,8 @@
 #include <atomic>
 #include <memory>
 
+#include "engine/base/parallel.hpp"
 #include "engine/methods/grid/weight_runs.hpp"
-#include "engine/parallel.hpp"
 
 namespace landfall::internal {
 namespace {

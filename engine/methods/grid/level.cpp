@@ -4,8 +4,8 @@
 #include <atomic>
 #include <utility>
 
+#include "engine/base/parallel.hpp"
 #include "engine/methods/grid/weight_runs.hpp"
-#include "engine/parallel.hpp"
 #include "kernels/score_cells.hpp"
 
 namespace landfall::internal {

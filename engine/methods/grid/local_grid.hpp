@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/lattice.hpp"
 #include "engine/methods/grid/cone.hpp"
+#include "engine/priors/lattice.hpp"
 
 namespace landfall::internal {
 

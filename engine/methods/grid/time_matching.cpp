@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/central_heading.hpp"
-#include "engine/end_points.hpp"
+#include "engine/base/options.hpp"
+#include "engine/base/thread_time.hpp"
 #include "engine/methods/grid/level.hpp"
-#include "engine/options.hpp"
-#include "engine/thread_time.hpp"
+#include "engine/priors/central_heading.hpp"
+#include "engine/scans/end_points.hpp"
 #include "landfall/error.hpp"
 
 namespace landfall::internal {

@@ -1,6 +1,6 @@
 #include "engine/methods/pso/swarm.hpp"
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/prepared_state.hpp"
-#include "engine/thread_time.hpp"
-#include "engine/to_raycast.hpp"
+#include "engine/base/thread_time.hpp"
+#include "engine/maps/prepared_state.hpp"
+#include "engine/maps/to_raycast.hpp"
 
 namespace landfall::internal {
 

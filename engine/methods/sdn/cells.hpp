@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/counter_rng.hpp"
+#include "engine/base/counter_rng.hpp"
 #include "engine/methods/sdn/focus_levels.hpp"
 #include "landfall/pose2.hpp"
 

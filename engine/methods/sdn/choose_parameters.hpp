@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/maps/prepared_state.hpp"
 #include "engine/methods/sdn/focus_levels.hpp"
-#include "engine/pose_sampler.hpp"
-#include "engine/prepared_state.hpp"
+#include "engine/priors/pose_sampler.hpp"
 
 namespace landfall::internal {
 

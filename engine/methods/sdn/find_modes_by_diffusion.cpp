@@ -4,11 +4,11 @@
 #include <cmath>
 #include <span>
 
+#include "engine/base/parallel.hpp"
+#include "engine/base/thread_time.hpp"
 #include "engine/methods/sdn/choose_parameters.hpp"
 #include "engine/methods/sdn/cluster.hpp"
 #include "engine/methods/sdn/equilibrium.hpp"
-#include "engine/parallel.hpp"
-#include "engine/thread_time.hpp"
 
 namespace landfall::internal {
 namespace {

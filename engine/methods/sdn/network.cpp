@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/parallel.hpp"
-#include "engine/thread_time.hpp"
+#include "engine/base/parallel.hpp"
+#include "engine/base/thread_time.hpp"
 
 namespace landfall::internal {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "engine/methods/sdn/cells.hpp"
 #include "engine/methods/sdn/test_rays.hpp"
-#include "engine/pose_sampler.hpp"
+#include "engine/priors/pose_sampler.hpp"
 
 namespace landfall::internal {
 

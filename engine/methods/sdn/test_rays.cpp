@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/to_raycast.hpp"
+#include "engine/maps/to_raycast.hpp"
 
 namespace landfall::internal {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/maps/prepared_state.hpp"
 #include "engine/methods/sdn/beam_bands.hpp"
-#include "engine/prepared_state.hpp"
 
 namespace landfall::internal {
 
