@@ -66,8 +66,8 @@ def test_views_keep_their_owner_alive():
         (np.zeros((0, 2), dtype=np.uint8), 0.1, "0"),
         # as bytes these would be 0, 255 and 1
         (np.array([[0.0, 0.9]]), 0.1, "column 1) is 0.9"),
-        (np.array([[0, -1]]), 0.1, "column 1) is -1.0"),
-        ([[257, 0]], 0.1, "column 0) is 257.0"),
+        (np.array([[0, -1]]), 0.1, "column 1) is -1"),
+        ([[257, 0]], 0.1, "column 0) is 257"),
         (np.array([[math.nan]]), 0.1, "is nan"),
     ],
 )
