@@ -58,7 +58,8 @@ static void bad_scans(const landfall_sensor* scanner) {
   CHECK_OK(landfall_scans_add(scans, scanner, ranges_m, 360, 0.0, NULL));
   landfall_scan scan;
   CHECK_FAILS(landfall_scans_get(scans, 1, &scan), LANDFALL_INVALID_ARGUMENT, "the list has 1");
-  CHECK_FAILS(landfall_scans_merge(scans, 0, 1, NULL, 0, scans), LANDFALL_INVALID_ARGUMENT, "no T_odom_robot");
+  CHECK_FAILS(landfall_scans_merge(scans, 0, 1, NULL, 0, scans), LANDFALL_INVALID_ARGUMENT,
+              "no T_odom_robot");
   CHECK_FAILS(landfall_scans_merge(scans, 0, 1, NULL, 1, scans), LANDFALL_INVALID_ARGUMENT, "reference is 1");
   CHECK_FAILS(landfall_scans_merge(scans, 0, (size_t)-1, NULL, 0, scans), LANDFALL_INVALID_ARGUMENT,
               "the list has 1");
