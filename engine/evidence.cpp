@@ -31,6 +31,7 @@ double log_add(double a, double b) {
 
 RivalMargin rival_margin(std::size_t points) {
   constexpr double most_share = 0.22;
+  if (points == 0) return {};
   const double perfect = 255.0 * static_cast<double>(points);
   return {.most_score = most_share / fourth_root(points) * perfect,
           .part_of_misfit = std::expm1(rival_nats / (power * fourth_root(points))),

@@ -38,6 +38,7 @@ struct RivalMargin {
     return static_cast<std::int32_t>(std::min(most_score, part_of_misfit * (misfit_at_score_0 - best_score)));
   }
 };
+// Of a scan with so many points; none: 0 at any score.
 RivalMargin rival_margin(std::size_t points);
 // Of a second look (search.cpp).
 RivalMargin second_margin(std::size_t points);

@@ -79,5 +79,9 @@ TEST(RivalMargin, ASecondLookTakesAQuarterOfAPerfectScore) {
   for (const std::int32_t best : {0, 1000, 255 * 180}) EXPECT_EQ(second_margin(180).at(best), 255 * 180 / 4);
 }
 
+TEST(RivalMargin, NoPointsHaveNone) {
+  for (const RivalMargin& margin : {rival_margin(0), second_margin(0)}) EXPECT_EQ(margin.at(0), 0);
+}
+
 }  // namespace
 }  // namespace landfall::internal
