@@ -2,6 +2,7 @@
 // higher weight, and each weight's bits say which lists a point stands in.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -32,9 +33,9 @@ struct WindowLists {
   std::int32_t* begin;  // [list_count(points)], as is `end`
   std::int32_t* end;
 };
-// Lists that so many points may need, and elements of all of them.
+// Lists that so many points may need, at least one, and elements of all of them.
 constexpr int list_count(std::size_t points) {
-  return std::bit_width(points);
+  return std::max(1, static_cast<int>(std::bit_width(points)));
 }
 constexpr std::size_t lists_room(std::size_t points) {
   std::size_t room = 0;

@@ -97,6 +97,26 @@ TEST(BranchAndBound, KeepsPosesThatOnlyAFarBeamSpeaksFor) {
   expect_same_answer(answer(world, "branch_and_bound"), expected);
 }
 
+// Echoes so far away that no end point is left; in a batch after a scan that has many, which leaves a guess.
+TEST(BranchAndBound, BoundsNothingWithoutPoints) {
+  World world = testing::large_world(2);
+  std::vector<Scan> scans{world.scan};
+  const auto far_sighted = std::make_shared<const Sensor>(make_fan({.beams = 8, .range_max_m = 1e9}));
+  world.scan = {.sensor = far_sighted, .ranges_m = std::vector<float>(8, 4e8F)};
+  world.prior = {Anywhere{}};
+  const SearchResult expected = answer(world, "exhaustive");
+  const SearchResult actual = answer(world, "branch_and_bound");
+  EXPECT_GT(actual.counts.poses_covered, many_poses);
+  EXPECT_TRUE(actual.hypotheses.empty());
+  expect_same_answer(actual, expected);
+  scans.push_back(world.scan);
+  for (Scan& scan : scans) scan.T_odom_robot = Pose2{};
+  world.options.threads = 1;
+  const std::vector<SearchResult> batch = search(world.map, world.prior, scans, world.options);
+  EXPECT_FALSE(batch[0].hypotheses.empty());
+  expect_same_answer(batch[1], expected);
+}
+
 TEST(BranchAndBound, AnswersTheSameOnEveryInstructionSet) {
   for (std::uint64_t seed = 1000; seed < 1040; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
